@@ -18,10 +18,15 @@ def read_only(array: np.ndarray) -> np.ndarray:
 
 
 def kept(value: object) -> object:
-    """A field of a record: read_only() where it is an array, or a tuple with some in it."""
-    if isinstance(value, tuple):
+    """A field of a record, not to be written: an array, or a tuple or a mapping (as a dict) with some in it."""
+    if type(value) is tuple:
         return tuple(map(kept, value))
-    return read_only(value) if isinstance(value, np.ndarray) else value
+    if isinstance(value, Mapping):
+        return {name: kept(each) for name, each in value.items()}
+    if isinstance(value, np.ndarray):
+        return read_only(value)
+    like_an_array = getattr(type(value), "read_only", None)  # poses in tracks
+    return like_an_array(value) if like_an_array else value
 
 
 def _is_array(value: object) -> bool:
@@ -60,8 +65,13 @@ def _mark(value: object) -> object:
 class Record:
     """A frozen dataclass (eq=False) with arrays among its fields: == compares values, and hash() goes with it.
 
-    Arrays that it has kept() are read only; they share memory with what it was given where that has the right type.
+    All its arrays are read only; they share memory with what it was given where that has the right type. A record
+    that makes something of what it is given does so in a __post_init__ of its own, which ends with this one.
     """
+
+    def __post_init__(self) -> None:
+        for each in fields(self):  # type: ignore[arg-type]
+            object.__setattr__(self, each.name, kept(getattr(self, each.name)))
 
     def __repr__(self) -> str:
         said = []

@@ -98,13 +98,15 @@ def test_a_paw_presses_where_the_toes_are():
     """Hocks in the air leave no heels: the sole lies around the ball and ahead, at the height of the lowest joint."""
     bones = beasts.skeleton()
     row = {name: k for k, name in enumerate(bones.names)}
+    rest, length = bones.rest.copy(), bones.length.copy()
     for k, name in enumerate(bones.names):
         if "foot" in name:
-            bones.rest[k, 2, 3] = 0.25  # a metatarsus, upright
-            bones.length[k] = 0.24
+            rest[k, 2, 3] = 0.25  # a metatarsus, upright
+            length[k] = 0.24
         if "toe" in name:
-            bones.length[k] = 0.10
-            bones.rest[k, :3, 1] = (0.0, -1.0, 0.0)
+            length[k] = 0.10
+            rest[k, :3, 1] = (0.0, -1.0, 0.0)
+    bones = replace(bones, rest=rest, length=length)
     g = gait(bones, beasts.motion(bones, speed=1.0, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25)))
     for limb in range(4):
         heel, toe = np.flatnonzero(g.part_limb == limb)

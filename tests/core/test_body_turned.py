@@ -72,9 +72,10 @@ def test_upright_feet_of_a_mirrored_body_point_ahead(mirrored):
     """Foot bones that stand tell no direction: left and right do, the other way round in a mirrored body."""
     bones, motion = retailed(person(toes=False), walk(person(toes=False)), ("foot",), (0, 0, 1), 0.1)
     if mirrored:
-        bones.rest[:, 0, 3] *= -1
-        motion.matrix[..., 0, 3] *= -1
-        bones = replace(bones, mirrored=True)
+        other_side = np.ones((4, 4))
+        other_side[0, 3] = -1.0
+        motion = replace(motion, matrix=motion.matrix * other_side)
+        bones = replace(bones, rest=bones.rest * other_side, mirrored=True)
     g = gait(bones, motion)
     assert (rotation.matrix(g.pose[:, flat_sample(g), 3:])[:, 1, 0] < -0.9).all()
 

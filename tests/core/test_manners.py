@@ -1,29 +1,22 @@
-"""Manners that users of NumPy and SciPy expect: records that print, compare and keep what they hold, tables that are
-read only, arguments that have names, and are alike where they mean the same."""
+"""Manners that users of NumPy and SciPy expect: tables that are read only, arguments that have names and are alike
+where they mean the same, blocks that close, sentences that name what failed. Records have test_records.py."""
 
-import copy
-import importlib
 import inspect
-import pickle
-import pkgutil
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import is_dataclass, replace
 
 import numpy as np
 import pytest
 from scenes import gaits
+from scenes.modules import modules
 
-import desire_path
 from desire_path import KINDS, SOILS, Bake, Gait, Ground, Simulation, Soil, place_feet
-from desire_path.arrays import Record
 from desire_path.bake.options import BakeOutput
 from desire_path.errors import DesirePathError
 from desire_path.ground.layers import Layer
 from desire_path.ground.options import SimulationOptions
-from desire_path.ground.plants import PAPER, Planting
-from desire_path.ground.spray import Grains, Spray
-from desire_path.ground.trail import Trail
+from desire_path.ground.plants import PAPER
+from desire_path.ground.spray import Spray
 from desire_path.loads import walker
-from desire_path.motion import tracks
 from desire_path.motion.scatter import Scatter
 from desire_path.placement import passes
 
@@ -86,55 +79,6 @@ def test_the_old_name_of_the_ground_of_contacts_warns(gait):
         np.testing.assert_array_equal(have, want)
 
 
-def records(gait):
-    """One maker for each kind of record with arrays, and how it differs from another."""
-    heights = np.array([[0.0, np.nan], [0.1, 0.2]])
-    vertices = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], float)
-    nothing = np.zeros((2, 3), np.float32)
-    return {
-        "Gait": (lambda: gait.piece(0, 20), lambda: gait.piece(1, 21)),
-        "Sole": (lambda: gaits.box(0.2, 0.1), lambda: gaits.box(0.2, 0.11)),
-        "FootForce": (lambda: walker.loads(gait), lambda: walker.loads(gait, ground=0.01)),
-        "Ground": (lambda: Ground.heights(heights, 0.5), lambda: Ground.heights(heights, 0.6)),
-        "Ground ": (lambda: Ground.mesh(vertices, [(0, 1, 2)]), lambda: Ground.mesh(2 * vertices, [(0, 1, 2)])),
-        "Trail": (
-            lambda: Trail("a.exr", 0.01, 0.0, 0.0, nothing, nothing, nothing, nothing, True, False),
-            lambda: Trail("a.exr", 0.01, 0.0, 0.0, nothing + 1, nothing, nothing, nothing, True, False),
-        ),
-    }
-
-
-KNOWN = ("Gait", "Sole", "FootForce", "Ground", "Ground ", "Trail")
-
-
-@pytest.mark.parametrize("kind", KNOWN)
-def test_records_with_arrays_compare_by_value(kind, gait):
-    make, other = records(gait)[kind]
-    assert make() == make() and hash(make()) == hash(make())
-    assert make() != other()
-    assert make() != "else" and make() is not None and make() != 1
-
-
-def test_a_recording_in_tracks_is_one_in_arrays(gait):
-    in_tracks = lambda pose: tracks.TrackArray(2, len(gait.time), [(np.arange(2), 0, pose)])
-    assert replace(gait, pose=in_tracks(gait.pose)) == gait
-    assert replace(gait, pose=in_tracks(gait.pose + np.array([1e-9] + 6 * [0.0]))) != gait
-
-
-@pytest.mark.parametrize("kind", KNOWN)
-def test_records_are_shown_on_one_short_line(kind, gait):
-    told = repr(records(gait)[kind][0]())
-    assert "\n" not in told and len(told) < 120 and told.startswith(kind.strip() + "(")
-
-
-def test_a_recording_says_who_when_and_how_fast(gait):
-    assert repr(gait) == f"Gait(1 walker, 2 limbs, {len(gait.time)} samples, {gait.time[-1]:.6g} s, 60 a second)"
-    broken = replace(gait, time=[], cut=[5])
-    assert repr(broken).startswith("Gait(1 walker, 2 limbs, 0 samples")
-    uneven = replace(gait, time=gait.time**2 + gait.time)
-    assert repr(uneven).endswith("no even rate)")
-
-
 def test_simulations_and_bakes_are_shown_on_one_short_line(gait, tmp_path):
     assert repr(Simulation(Ground.flat(), "mud")) == "Simulation(cells of 0.01 m, 1 soil, 0 plantings)"
     bake = Bake(gait, Ground.flat(), folder=str(tmp_path / "bake"))
@@ -190,61 +134,6 @@ def test_a_bake_frees_its_folder_at_the_end_of_its_block(gait, tmp_path):
     assert bake.report["contacts"] > 0
 
 
-def arrays_of(value):
-    """Every array in a record, and in the records and tuples that it holds."""
-    if isinstance(value, np.ndarray):
-        yield value
-    elif isinstance(value, (tuple, list)):
-        for each in value:
-            yield from arrays_of(each)
-    elif is_dataclass(value):
-        for each in fields(value):
-            yield from arrays_of(getattr(value, each.name))
-
-
-AGAIN = {
-    "itself": lambda record: record,
-    "its copy": copy.deepcopy,
-    "its pickle": lambda record: pickle.loads(pickle.dumps(record)),
-}
-
-
-@pytest.mark.parametrize("kind", KNOWN)
-@pytest.mark.parametrize("again", AGAIN)
-def test_arrays_of_a_record_are_read_only(kind, again, gait):
-    record = AGAIN[again](records(gait)[kind][0]())
-    held = list(arrays_of(record))
-    assert held and not any(array.flags.writeable for array in held)
-    with pytest.raises(ValueError, match="read-only"):
-        held[0].fill(0)
-
-
-def test_every_frozen_class_with_arrays_is_a_record():
-    """So == compares values and does not raise."""
-    for module in modules():
-        for name, each in vars(module).items():
-            own = inspect.isclass(each) and each.__module__ == module.__name__ and is_dataclass(each)
-            if not own or name.startswith("_") or not each.__dataclass_params__.frozen:
-                continue
-            if any("ndarray" in str(field.type) for field in fields(each)):
-                assert issubclass(each, Record), f"{module.__name__}.{name}"
-                assert not each.__dataclass_params__.eq, name
-
-
-def test_layers_differ_by_how_much_of_them_there_is():
-    make = lambda share: Layer("mud", 0.03, np.full(4, share))
-    assert make(0.5) == make(0.5) and make(0.5) != make(0.25) and make(1.0) != Layer("mud", 0.03)
-    assert not make(0.5).share.flags.writeable and "\n" not in repr(make(0.5))
-
-
-def test_a_record_of_no_words_of_its_own_is_shown_short():
-    make = lambda x: Grains(*(np.full((3, 3), x, float), np.ones((3, 3)), np.zeros(3, int), np.arange(3)))
-    assert repr(make(1)) == "Grains(position (3, 3), velocity (3, 3), soil (3,), name (3,))"
-    assert make(1) == make(1) and make(1) != make(2) and hash(make(1)) == hash(make(1))
-    with pytest.raises(ValueError, match="read-only"):
-        make(1).position[0] = 2.0
-
-
 FAILS = {  # what is told of a call that cannot be: the argument, and why
     "layers": (lambda sim, gait: Ground.flat().layered(*[Layer("mud", 0.03)] * 4), "4 layers .* at most 3"),
     "layer": (lambda sim, gait: Layer("mud", 0.0), "A layer 0.0 m thick .* more than 0"),
@@ -280,24 +169,6 @@ def test_a_walk_goes_on_after_what_failed(gait, walked):
     alone.run(60)
     walked.run(60)
     assert bytes(alone.state()) == bytes(walked.state())
-
-
-def test_a_record_takes_arrays_without_a_copy_and_leaves_their_giver_free(gait):
-    pose = np.array(gait.pose)
-    record = replace(gait, pose=pose)
-    assert np.shares_memory(record.pose, pose) and pose.flags.writeable
-
-
-def test_arrays_of_a_planting_are_read_only():
-    held = list(arrays_of(Planting("lawn", roots=[(0, 0), (1, 1)], vigour=[0, 1])))
-    held += arrays_of(Planting("lawn", weight=np.ones((2, 2)), rectangle=(0, 0, 1, 1)))
-    assert len(held) == 3 and not any(array.flags.writeable for array in held)
-
-
-def modules():
-    for found in pkgutil.walk_packages(desire_path.__path__, "desire_path."):
-        if not found.name.startswith("desire_path.blender") and not found.name.endswith("__main__"):
-            yield importlib.import_module(found.name)
 
 
 def public_functions():

@@ -143,9 +143,10 @@ def test_a_small_walk_is_told_from_one_of_the_hill(size):
     """A bird's steps differ by millimetres where a person's differ by centimetres."""
     bones = beasts.skeleton()
     moved = beasts.motion(bones, speed=0.3, stride=0.9, duty=0.65, phases=(0.0, 0.5, 0.75, 0.25), seconds=3.0)
-    bones.rest[:, :3, 3] *= size
-    moved.matrix[..., :3, 3] *= size
-    bones = replace(bones, length=bones.length * size)
+    scale = np.ones((4, 4))
+    scale[:3, 3] = size
+    bones = replace(bones, rest=bones.rest * scale, length=bones.length * size)
+    moved = replace(moved, matrix=moved.matrix * scale)
     land = Simulation(plane(0.05, 0.15))
     level = body.gait_from_bones(bones, moved, mass=1.0, frame_rate=120.0)
     assert place.carries(level, land, 0)

@@ -1,5 +1,7 @@
 """Four, six and eight feet by name and by structure, one naming after another; people keep two."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -191,10 +193,11 @@ def test_hands_of_people_stay_hands():
 
     def make(extra):
         bones = person("hips", "thigh.{}", "shin.{}", "foot.{}", "toe.{}", extra=extra)
+        parents = bones.parents.copy()
         for side in "LR":
             chain = [bones.names.index(f"{part}.{side}") for part in ("hand", "forearm", "upper_arm")] + [0]
-            bones.parents[chain[:-1]] = chain[1:]
-        return bones
+            parents[chain[:-1]] = chain[1:]
+        return replace(bones, parents=parents)
 
     for extra in (
         arms(1.35, 0.1),
@@ -317,6 +320,8 @@ def test_up_is_where_the_legs_go(name):
     sides, hips, hind, fore = BEASTS[name]
     made = beast(sides, hips, hind, fore)
     rig = rigs.detect(made)
-    made.rest[0, 1, 3] = 1.9
+    rest = made.rest.copy()
+    rest[0, 1, 3] = 1.9
+    made = replace(made, rest=rest)
     motion = Motion(np.array([0.0]), made.names, made.rest[None])
     np.testing.assert_array_equal(body.rest_up(SampledBones(made, motion), rig), (0.0, 0.0, 1.0))

@@ -20,7 +20,7 @@ from desire_path.ground.options import SimulationOptions
 from desire_path.ground.parcels import Parcel
 from desire_path.ground.sim import Ground, Simulation
 from desire_path.loads import walker
-from desire_path.motion.tracks import TrackArray, joined
+from desire_path.motion.tracks import TrackArray, joined, values
 from desire_path.placement import passes
 from tests.scenes.records import for_simulation
 
@@ -262,17 +262,11 @@ def test_a_thousand_walkers_go_in_turn(walk):
     short = walk.along([(0, 0), (2, 0)], 1).piece(10, 30)
     many = passes.in_turn([short] * 1000)
     assert many.pose.shape == (4000, 20_000, 7) and many.pose.nbytes == 1000 * short.pose.nbytes
-    loads = walker.FootForce(
-        many.time,
-        many.pose.like((), "u1", 0),
-        many.pose.like((3,), float, 0.0),
-        many.pose.like((3,), float, np.nan),
-        np.zeros(len(many.point)),
-    )
-    for touching, force in zip(
-        (block[2] for block in loads.touching.blocks), (block[2] for block in loads.force.blocks)
-    ):
-        touching[0, 5:15], force[0, 5:15, 2] = 1, -500.0
+    touching, force = many.pose.like((), "u1", 0), many.pose.like((3,), float, 0.0)
+    for on, pressing in zip(values(touching), values(force)):
+        on[0, 5:15], pressing[0, 5:15, 2] = 1, -500.0
+    point = many.pose.like((3,), float, np.nan)
+    loads = walker.FootForce(many.time, touching, force, point, np.zeros(len(many.point)))
     sim = Simulation(Ground.flat(), "mud", 0.02, options=SimulationOptions(threads=1))
     before = _native.bytes_live()
     sim.load(many, loads)
@@ -335,8 +329,8 @@ def test_a_bake_of_them_is_that_of_a_dense_recording(walk, tmp_path):
     found = maps.read(tmp_path / "out" / "maps_final.exr")
     assert found.planes["compression"].max() > 0.005
     broken = gait.pose.like((7,), float, 0.0)
-    for (_, _, to), (_, _, values) in zip(broken.blocks, gait.pose.blocks):
-        to[...] = values
+    for (_, _, to), (_, _, own) in zip(broken.blocks, gait.pose.blocks):
+        to[...] = own
     broken.blocks[1][2][0, 3, 2] = np.nan
     with pytest.raises(DesirePathError, match="no finite position at frame"):
         replace(gait, pose=broken).check()

@@ -86,7 +86,7 @@ class FrameIndex:
 
     def planes(self, number: int, film: str = "trail") -> dict[str, np.ndarray]:
         """Channels R, G, B, A of playback frame `number`, of all cells (ny, nx); beside the pages of a sparse one 0."""
-        found = maps.read(frame_path(self.folder, number, film)).planes
+        found = dict(maps.read(frame_path(self.folder, number, film)).planes)
         if self.atlas is None:
             return found
         return {name: self.atlas.spread(plane, self.nx, self.ny) for name, plane in found.items()}

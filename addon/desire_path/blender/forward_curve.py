@@ -16,7 +16,7 @@ TURNS = {"QUATERNION": "delta_rotation_quaternion"}
 TURN = "delta_rotation_euler"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Course:
     """A way over the floor, walked at an even speed."""
 

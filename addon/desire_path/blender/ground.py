@@ -31,7 +31,7 @@ class Beside(DesirePathError):
     """No face of the ground lies near the walk."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """A ground mesh read once."""
 

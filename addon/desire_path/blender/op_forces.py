@@ -34,7 +34,7 @@ _graphs = set()  # names of the armatures whose graph is shown
 _handles = {}  # "POST_VIEW", "POST_PIXEL" -> handle of the drawing, while there is something to draw
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Forces:
     """The loads of one recording, a limb each."""
 

@@ -42,7 +42,7 @@ def mark(each):
     return f"{each.kind} {each.density!r} {each.density_group} {each.seed}{image}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spread:
     """A number 0..1 for every place of a rectangle of the world."""
 

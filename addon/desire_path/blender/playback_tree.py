@@ -57,7 +57,7 @@ def file_number(wire, index, count, stretch=1.0):
     return wire.math("MAXIMUM", wire.math("MINIMUM", now, float(count)), 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Playing:
     """How the frames of a bake are played on an object."""
 

@@ -13,7 +13,7 @@ LOCKED = 1e-4  # a locked channel may change by rounding only
 ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Bones:
     """What the bones of an armature do over the frames, in its own axes."""
 

@@ -26,7 +26,7 @@ SAME = 1e-6  # matrices whose numbers differ less are the same
 WAS = ("is_ground", "cell_size", "bake_id", "bake_file", "bake_seen", "bake_name", "folder", "folder_auto")
 
 
-@dataclass
+@dataclass(eq=False)
 class _Held:
     """An object that presses."""
 

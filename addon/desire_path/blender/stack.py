@@ -217,7 +217,7 @@ def _tree(name, *kinds):
 # ---- what a nodes modifier does -------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Evaluated:
     points: np.ndarray  # of the mesh (n, 3)
     corners: np.ndarray  # the point of every corner of its faces (c,)

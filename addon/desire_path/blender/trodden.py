@@ -38,7 +38,7 @@ class Company:
     beside: float = 0.0  # so far beside the feet some of the grounds may lie [m]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Track:
     """Where one walker goes in the frames of its ground."""
 

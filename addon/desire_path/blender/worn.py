@@ -181,7 +181,7 @@ def _pointers(kind):
 # ---- points and bones ----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Piece:
     """A mesh that is shown once: itself, or where an empty shows its collection."""
 

@@ -48,7 +48,7 @@ def why_chained(soils: Sequence[AnySoil], plants: Sequence[object]) -> str:
     return ""
 
 
-@dataclass
+@dataclass(eq=False)
 class Component:
     """Walkers that can meet in a window, and the tiles they can change."""
 

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Record, kept
+from ..arrays import Record
 from ..bounds import CELLS
 from ..errors import DesirePathError
 from . import trail
@@ -29,7 +29,8 @@ class Ground(Record):
     layers: tuple[Layer, ...] = ()  # that lie on its soils, from the top down
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "native", kept(tuple(self.native)))
+        object.__setattr__(self, "native", tuple(self.native))
+        super().__post_init__()
 
     def __repr__(self) -> str:
         kind, *numbers = self.native

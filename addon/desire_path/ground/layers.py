@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..errors import DesirePathError
 from .soil import NUMBERS, Soil, as_soil
 from .soil_keys import AnySoil, SoilKeys
@@ -49,13 +49,14 @@ class Layer(Record):
         object.__setattr__(self, "soil", as_soil(soil))
         object.__setattr__(self, "thickness", thick)
         object.__setattr__(self, "share", None if share is None else _checked_share(share))
+        self.__post_init__()
 
 
 def _checked_share(share: ArrayLike) -> np.ndarray:
     found = np.ascontiguousarray(share, np.float32).reshape(-1)
     if not ((found >= 0.0) & (found <= 1.0)).all():
         raise DesirePathError("The share of a layer is not between 0 and 1 everywhere: give 0 where it does not lie.")
-    return read_only(found)
+    return found
 
 
 def read(text: str) -> Layer:

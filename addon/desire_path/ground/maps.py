@@ -63,8 +63,8 @@ def channel(name: str) -> str:
 class Picture(Record):
     """What a file holds: planes by name, float32 (ny, nx); notes by name, text or number."""
 
-    planes: dict[str, np.ndarray]
-    notes: dict[str, str | float]
+    planes: Mapping[str, np.ndarray]
+    notes: Mapping[str, str | float]
 
     @property
     def shape(self) -> tuple[int, int]:

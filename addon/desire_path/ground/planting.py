@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..bounds import PLANT_BYTES, Limits
 from ..core import _native
 from ..errors import DesirePathError
@@ -64,17 +64,18 @@ class Planting(Record):
                 raise DesirePathError("The weight of a planting needs rows and columns, and a rectangle to lie over.")
             if not (np.isfinite(weight).all() and weight.min() >= 0):
                 raise DesirePathError("The weight of a planting must be 0 to 1 everywhere: mend what is not.")
-            put("weight", read_only(weight))
+            put("weight", weight)
         if self.roots is not None:
             roots = np.ascontiguousarray(self.roots, np.float32)
             if roots.ndim != 2 or roots.shape[1] != 2 or not np.isfinite(roots).all():
                 raise DesirePathError(f"Roots of shape {roots.shape} cannot be planted: give finite x, y [m], (n, 2).")
-            put("roots", read_only(roots))
+            put("roots", roots)
         if self.vigour is not None:
             vigour = np.ascontiguousarray(self.vigour, np.float32)
             if self.roots is None or vigour.shape != (len(self.roots),) or not (abs(vigour) <= 8).all():
                 raise DesirePathError("The vigour of a planting needs roots, and one number from -8 to 8 for each.")
-            put("vigour", read_only(vigour))
+            put("vigour", vigour)
+        super().__post_init__()
 
     def within(self, x0: float, y0: float, x1: float, y1: float) -> np.ndarray:
         """Roots (n, 2) float32 [m] of the squares that a rectangle [m] meets: what may stand there."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..core import _native
 from ..errors import DesirePathError
 from ..motion.gait import HEEL, Gait, Sole
@@ -62,8 +62,9 @@ class PressBody(Record):
             raise DesirePathError(f"'{self.name}' has NaN or infinite vertices: repair the mesh.")
         if self.mass is not None and not (math.isfinite(self.mass) and 0.0 < self.mass < 1e9):
             raise DesirePathError(f"A mass of {self.mass:g} kg for '{self.name}' is none: give more than 0, or none.")
-        object.__setattr__(self, "vertices", read_only(np.ascontiguousarray(vertices, np.float32)))
-        object.__setattr__(self, "triangles", read_only(np.ascontiguousarray(triangles, np.int32)))
+        object.__setattr__(self, "vertices", np.ascontiguousarray(vertices, np.float32))
+        object.__setattr__(self, "triangles", np.ascontiguousarray(triangles, np.int32))
+        super().__post_init__()
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import record
@@ -139,7 +139,8 @@ class Grains(Record):
 
     def __post_init__(self) -> None:
         for name in ("position", "velocity", "soil", "name"):
-            object.__setattr__(self, name, read_only(np.asarray(getattr(self, name))))
+            object.__setattr__(self, name, np.asarray(getattr(self, name)))
+        super().__post_init__()
 
     def __len__(self) -> int:
         return len(self.name)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..bounds import CELLS
 from ..errors import DesirePathError
 from . import geotiff, maps
@@ -38,10 +38,6 @@ class Trail(Record):
     pressure_time: np.ndarray  # [Pa s] >= 0
     flat: bool  # level ground without end
     planted: bool  # plants grew on it, which a map does not hold
-
-    def __post_init__(self) -> None:
-        for name in ("rest", *LEFT):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def __repr__(self) -> str:
         return f"Trail({self.path!r}, {self.rest.shape[1]} x {self.rest.shape[0]} cells of {self.cell:g} m)"

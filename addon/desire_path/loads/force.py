@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Record, kept
+from ..arrays import Record
 from ..files import atomic_file
 from ..motion.gait import Gait
 from ..motion.tracks import Array
@@ -31,10 +31,6 @@ class FootForce(Record):
     mean: np.ndarray | None = None  # mean vertical force of each walker (W,) [body weights]
     warnings: tuple[str, ...] = ()
     held: Array | None = None  # parts held in mid-step from these samples to the next press no deeper (P, T)
-
-    def __post_init__(self) -> None:
-        for name in ("time", "touching", "force", "point", "clearance", "mean", "held"):
-            object.__setattr__(self, name, kept(getattr(self, name)))
 
     def __repr__(self) -> str:
         parts, samples = np.shape(self.touching)

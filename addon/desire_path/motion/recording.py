@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from ..arrays import Record, read_only
+from ..arrays import Record
 from ..bounds import Limits
 from ..core import _native
 from ..errors import DesirePathError
@@ -60,8 +60,9 @@ class Sole(Record):
     triangles: np.ndarray  # (m, 3) i4
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "vertices", read_only(np.ascontiguousarray(self.vertices, "f4")))
-        object.__setattr__(self, "triangles", read_only(np.ascontiguousarray(self.triangles, "i4")))
+        object.__setattr__(self, "vertices", np.ascontiguousarray(self.vertices, "f4"))
+        object.__setattr__(self, "triangles", np.ascontiguousarray(self.triangles, "i4"))
+        super().__post_init__()
 
     def __repr__(self) -> str:
         return f"Sole({len(self.vertices)} vertices, {len(self.triangles)} triangles)"
@@ -97,11 +98,11 @@ class Recording(Record):
         for name, kind, _ in NUMBERS:
             value = getattr(self, name)
             if not isinstance(value, TrackArray):
-                value = read_only(np.ascontiguousarray(value, kind))
+                value = np.ascontiguousarray(value, kind)
             object.__setattr__(self, name, value)
-        object.__setattr__(self, "cut", read_only(np.array(self.cut, "i8").reshape(-1)))
-        object.__setattr__(self, "jump", read_only(np.array(self.jump, "i8").reshape(-1, 2)))
-        object.__setattr__(self, "leg", read_only(np.array(self.leg, "f8").reshape(-1)))
+        object.__setattr__(self, "cut", np.array(self.cut, "i8").reshape(-1))
+        object.__setattr__(self, "jump", np.array(self.jump, "i8").reshape(-1, 2))
+        object.__setattr__(self, "leg", np.array(self.leg, "f8").reshape(-1))
         object.__setattr__(self, "soles", tuple(self.soles))
         laws = tuple(str(law) for law in self.contact_law)
         object.__setattr__(self, "contact_law", laws if set(laws) - {AUTO} else ())
@@ -115,6 +116,7 @@ class Recording(Record):
             object.__setattr__(self, name, names)
         object.__setattr__(self, "frame_rate", float(self.frame_rate))
         object.__setattr__(self, "frame_start", int(self.frame_start))
+        super().__post_init__()
 
     def __repr__(self) -> str:
         counted = ((len(self.mass), "walker"), (len(self.limb_walker), "limb"), (len(self.time), "sample"))

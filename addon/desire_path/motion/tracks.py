@@ -7,10 +7,13 @@ it is read. Where a row is not there it tells what it was or will be nearest to 
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+
+from ..arrays import read_only
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -174,6 +177,14 @@ class TrackArray(np.lib.mixins.NDArrayOperatorsMixin):
         if not blocks:  # nobody: one row for no time
             blocks = [(np.zeros(0, int), 0, np.zeros((0, 0, *self.shape[2:]), self.dtype))]
         return TrackArray(len(rows), self.shape[1], blocks, self.missing)
+
+    def read_only(self) -> TrackArray:
+        """The same numbers, not to be written through it, as a record keeps them."""
+        if not any(values.flags.writeable for _, _, values in self.blocks):
+            return self
+        kept = copy.copy(self)
+        kept.blocks = tuple((rows, first, read_only(values)) for rows, first, values in self.blocks)
+        return kept
 
     def like(self, tail: tuple[int, ...], dtype: Any, missing: Any) -> TrackArray:
         """An array of the same rows and spans, full of what is missing elsewhere."""

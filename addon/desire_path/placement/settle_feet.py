@@ -5,7 +5,7 @@ Gait, its loads, the pressed ground over time ---depth under each limb---> eased
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -56,7 +56,7 @@ class Film:
     def __init__(self, index: Frames) -> None:
         self.index = index
         self.number: int | None = None
-        self.planes: dict[str, np.ndarray] = {}
+        self.planes: Mapping[str, np.ndarray] = {}
 
     def at(self, frame: float, xy: np.ndarray) -> np.ndarray:
         """Height change and compression (2, n) [m] at a scene frame and places (n, 2); zero beside it."""

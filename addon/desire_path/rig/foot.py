@@ -43,7 +43,7 @@ ENOUGH = 3  # samples of a foot that stands, in one piece of a clip
 HEEL_DOWN = 0.03  # its heel is down when the ankle is no more than this over its usual height over the ball
 
 
-@dataclass
+@dataclass(eq=False)
 class FootShape:
     """One foot, flat on the ground: where its joints are in the foot's frame, and the bones' turns."""
 
