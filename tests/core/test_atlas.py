@@ -81,6 +81,22 @@ def test_edges_are_the_neighbours_cells(pair):
         np.testing.assert_array_equal(page[: inside.shape[0], : inside.shape[1]], inside)
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_pages_are_those_that_show_a_tile(turned):
+    """A tile wherever it lies among the narrower pages: all that show a cell of it, and no other."""
+    tiles = 34
+    for tile in range(tiles):
+        reached = np.zeros((1, tiles), bool)
+        reached[0, tile] = True
+        cells = np.zeros(tiles * TILE + 2 * EDGE, bool)
+        cells[EDGE + tile * TILE : EDGE + (tile + 1) * TILE] = True
+        count = -(-tiles * TILE // PAGE)
+        shows = [x for x in range(count) if cells[x * PAGE : x * PAGE + PAGE + 2 * EDGE].any()]
+        pages = Atlas.over(reached.T if turned else reached).pages
+        found = {tuple(each) for each in (pages[:, ::-1] if turned else pages).tolist()}
+        assert found == {(x, y) for x in shows for y in (0, 1)}  # a tile is wider than a page
+
+
 def test_maps_show_all(pair):
     dense, sparse = ({n: maps.read(f"{os.path.dirname(each.folder)}/{n}") for n in NAMES} for each in pair)
     for name in NAMES:

@@ -77,6 +77,13 @@ def test_wheels_of_a_vehicle_roll_without_slip_each_by_its_own_radius():
         np.testing.assert_allclose(angle, (place - place[0]) / radius, atol=1e-6)
 
 
+def test_the_outer_wheel_of_a_tight_bend_is_sampled_as_finely_as_any():
+    gait = track.rolled(circle(3.0, 0.5), track.Wheel(radius=0.3, gauge=3.0), Drive(speed=4.0))
+    turned = [abs((pose[1:] * pose[:-1]).sum(axis=1)) for pose in np.asarray(gait.pose)[..., 3:]]
+    angle = [2.0 * np.arccos(np.minimum(each, 1.0)).max() for each in turned]
+    assert min(angle) < 0.7 * max(angle) and max(angle) < 1.05 * track.ROLLS  # with its turn about the bend
+
+
 def test_four_ruts_of_a_car_in_a_bend_and_two_where_it_goes_straight():
     smooth = VEHICLES["car"].plain()
     for curve, ruts in (([(0.0, 0.0), (3.0, 0.0)], 2), (circle(7.0, 0.25), 4)):

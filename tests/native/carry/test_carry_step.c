@@ -104,6 +104,28 @@ TEST(takes_what_sticks)
     dp_free(f);
 }
 
+// What springs back does so from as deep as a cell is once soil has stuck to the sole.
+TEST(what_is_taken_is_as_if_pressed_deeper)
+{
+    Field*    f = field_make();
+    DpCarry*  carry = NULL;
+    DpCarried carried = {0};
+    float     spring[SIDE * SIDE];
+    CHECK(dp_carry_create(&carry, 1, CELL) == DP_OK);
+    f->patch.spring = spring;
+    for (int k = 0; k < SIDE * SIDE; ++k) f->compression[k] = 0.02f, spring[k] = -0.025f;
+    spring[FIRST * SIDE + FIRST] = 0.002f;  // has come back already
+    tread(f, carry, 1e5f, &carried), tread(f, carry, 0.0f, &carried);
+    CHECK(carried.firm > 0.0);
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        const bool   back = k == FIRST * SIDE + FIRST;
+        const double was = back ? 0.002 : -0.025, taken = (double)f->compression[k] - 0.02;
+        CHECK_NEAR((double)spring[k], back ? was : was - taken, 1e-7);
+    }
+    dp_carry_destroy(carry);
+    dp_free(f);
+}
+
 // firm ground that was not pressed gives nothing, nor does what lies deeper than the layer
 TEST(hard_ground_gives_nothing)
 {
@@ -191,6 +213,7 @@ TEST(without_memory_nothing_is_lost)
 int main(void)
 {
     RUN(takes_what_sticks);
+    RUN(what_is_taken_is_as_if_pressed_deeper);
     RUN(hard_ground_gives_nothing);
     RUN(leaves_what_the_law_says);
     RUN(is_kept_and_taken_back);

@@ -176,6 +176,65 @@ TEST(flies_off_a_wheel_along_its_rim)
     dp_coat_destroy(coat), dp_cloud_destroy(cloud);
 }
 
+// It comes off within the step, and flies for the rest of it: without air it stays beside its place.
+TEST(flies_on_from_where_it_came_off)
+{
+    DpSprayNumbers numbers = usual();
+    numbers.scatter = 0.0, numbers.particle_density = 1e9;  // air is nothing to it
+    DpCloud*         cloud = dp_cloud_create(&numbers);
+    Store            store = {.left = 1 << 20};
+    DpCoat*          coat = coated(&numbers, cloud, &store);
+    const double     dt = 0.1, far = 8.0 * dt;  // more than the plate is long
+    const DpLanding* landing;
+    int              landings;
+    CHECK(step(coat, cloud, &store, at(0, 10), at(far, 10), dt, false) == DP_OK);
+    CHECK(dp_cloud_fly(cloud, &ground, dt, 1, &landing, &landings) == DP_OK && landings == 0);
+    CHECK(dp_cloud_count(cloud) > 1000);
+    for (int n = 0; n < dp_cloud_count(cloud); ++n) {
+        const double x = dp_cloud_grain(cloud, n).at.x - far;
+        CHECK(x > -1e-4 && x < 0.3 + 1e-4);
+    }
+    dp_coat_destroy(coat), dp_cloud_destroy(cloud);
+}
+
+// What has touched the ground again is held as if it had just come up.
+TEST(a_touch_holds_anew)
+{
+    const DpSprayNumbers numbers = usual();
+    DpCloud*             cloud = dp_cloud_create(&numbers);
+    Store                store = {.left = 1 << 20};
+    DpCoat*              coat = coated(&numbers, cloud, &store);
+    const double         dt = 0.4 * numbers.hold_time, far = 20.0 * dt;
+    CHECK(step(coat, cloud, &store, at(0, 0.1), at(far, 0.1), dt, false) == DP_OK);
+    const int gone = dp_cloud_count(cloud);
+    CHECK(gone > 100);
+    store.left = 0;  // nothing sticks anew
+    CHECK(step(coat, cloud, &store, at(far, 0), at(far, 0), STEP, true) == DP_OK);
+    CHECK(step(coat, cloud, &store, at(far, 0), at(far, 0.1), 1.0, true) == DP_OK);
+    CHECK(step(coat, cloud, &store, at(0, 0.1), at(0.9 * far, 0.1), 0.9 * dt, false) == DP_OK);
+    CHECK(dp_cloud_count(cloud) == gone);  // those that are left have held on for longer than that
+    dp_coat_destroy(coat), dp_cloud_destroy(cloud);
+}
+
+// Who is put elsewhere has not gone there.
+TEST(a_jump_throws_nothing)
+{
+    const DpSprayNumbers numbers = usual();
+    DpCloud*             cloud = dp_cloud_create(&numbers);
+    Store                store = {.left = 1 << 20};
+    DpCoat*              coat = coated(&numbers, cloud, &store);
+    const DpCoatStep     jump = {.from = at(0, 0.1),
+                                 .to = at(100, 0.1),
+                                 .dt = STEP,
+                                 .jumps = true,
+                                 .ground = &ground,
+                                 .dig = dig,
+                                 .digger = &store};
+    CHECK(dp_coat_step(coat, &jump, cloud) == DP_OK);
+    CHECK(dp_cloud_count(cloud) == 0 && dp_coat_held(coat) == store.taken);
+    dp_coat_destroy(coat), dp_cloud_destroy(cloud);
+}
+
 TEST(goes_on_from_its_bytes)
 {
     const DpSprayNumbers numbers = usual();
@@ -221,6 +280,9 @@ int main(void)
     RUN(falls_off_by_the_law);
     RUN(what_moves_slowly_keeps_it);
     RUN(flies_off_a_wheel_along_its_rim);
+    RUN(flies_on_from_where_it_came_off);
+    RUN(a_touch_holds_anew);
+    RUN(a_jump_throws_nothing);
     RUN(goes_on_from_its_bytes);
     RUN(too_many_places_are_refused);
     return check_done();
