@@ -188,6 +188,10 @@ def plants_cover(
 ) -> None: ...
 
 # ---- terrain ----
+TILE: int  # cells along one side of a tile
+PAGE: int  # .. and of a page of a sparse picture
+PAGE_EDGE: int  # .. and so many of its neighbours' beyond each side
+
 def soil_fields() -> tuple[int, int, int]: ...  # surface_, carried_ of soil 0, layer_1: from which others count
 def fields() -> tuple[tuple[str, int, str, str, str], ...]: ...  # name, number, unit, equation, meaning
 def terrain_base_height(vertices: _Array, triangles: _Array, xy: _Array, height: _Array, /) -> None: ...

@@ -1,5 +1,6 @@
 // python/module.c - desire_path._native: a table of contents. Everything is in py_<room>.c.
 #include "python/buffers.h"
+#include "sim/sim.h"
 
 static int fill(PyObject* module)
 {
@@ -12,6 +13,13 @@ static int fill(PyObject* module)
     int (*const types[])(PyObject*) = {dp_py_block_type, dp_py_sim_type, dp_py_film_type};
     for (size_t t = 0; t < sizeof types / sizeof *types; ++t)
         if (types[t](module) < 0) return -1;
+    const struct
+    {
+        const char* name;
+        long        value;
+    } sizes[] = {{"TILE", DP_TILE}, {"PAGE", DP_PAGE}, {"PAGE_EDGE", DP_PAGE_EDGE}};
+    for (size_t t = 0; t < sizeof sizes / sizeof *sizes; ++t)
+        if (PyModule_AddIntConstant(module, sizes[t].name, sizes[t].value) < 0) return -1;
     return 0;
 }
 

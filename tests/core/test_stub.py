@@ -11,6 +11,7 @@ from desire_path import _native
 STUB = Path(__file__).resolve().parents[2] / "addon" / "desire_path" / "_native.pyi"
 TREE = ast.parse(STUB.read_text(encoding="utf-8"))
 TYPES = {node.name: node for node in TREE.body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
+SIZES = {node.target.id for node in TREE.body if isinstance(node, ast.AnnAssign) and not node.target.id.startswith("_")}
 WORDS = {"no": 0, "one": 1}
 
 
@@ -43,7 +44,8 @@ def taken(function, first=()):
 
 
 def test_every_name_of_the_core_is_told_and_no_other():
-    assert {*told(TREE), *TYPES} == public(_native)
+    assert {*told(TREE), *TYPES, *SIZES} == public(_native)
+    assert all(type(getattr(_native, name)) is int for name in SIZES) and len(SIZES) > 2
 
 
 @pytest.mark.parametrize("name", TYPES)

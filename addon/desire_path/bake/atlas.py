@@ -16,11 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Record
+from ..core import _native
 from ..errors import DesirePathError
 from ..ground import maps
 from ..ground.sim import TILE
 
-PAGE, EDGE = 60, 2  # cells of a page, and those of its neighbours beyond each side; native/sim/sim_film.h has the same
+PAGE: int = _native.PAGE  # cells of a page ..
+EDGE: int = _native.PAGE_EDGE  # .. and those of its neighbours beyond each side
 TABLE = "pages.exr"  # beside the frames: R, G column and row of the page in the pictures, B 1 where there is one
 
 

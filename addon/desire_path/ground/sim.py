@@ -52,7 +52,7 @@ __all__ = [
 ]
 
 
-TILE = 64  # cells along one side of a tile of ground and of a playback frame
+TILE: int = _native.TILE  # cells along one side of a tile of ground and of a playback frame
 
 LOAD_MODELS = ("inertia", "impulse")
 Area = Callable[[np.ndarray], np.ndarray]  # at which places (n, 2) [m] something stands
