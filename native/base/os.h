@@ -1,4 +1,4 @@
-// base/os.h - what differs from one system to the next: threads, files, processors, memory. The rest of the core asks
+// base/os.h - what differs from one system to the next: threads, files, processors, memory. All else of the core asks
 // here; os_posix.c and os_files_posix.c answer on Linux and macOS, os_windows.c and os_files_windows.c on Windows.
 #pragma once
 #include <stdbool.h>

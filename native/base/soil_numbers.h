@@ -1,4 +1,4 @@
-// base/soil_numbers.h - the numbers of a soil, each told once: a new one is a line here.
+// base/soil_numbers.h - the numbers of a soil, each declared once: a new one is a line here.
 //
 // DpSoil, dp_soil_default, dp_soil_check and Python's Soil come from this table, base/number.h.
 #pragma once

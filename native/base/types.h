@@ -171,5 +171,5 @@ typedef struct DpFootForce
 {
     DpVec3 force;   // of the foot on the ground: z < 0 presses  [N]
     DpVec3 point;   // centre of pressure                        [m]
-    DpVec3 normal;  // of the smoothed rest ground, unit         [-]
+    DpVec3 normal;  // of the smoothed base ground, unit         [-]
 } DpFootForce;

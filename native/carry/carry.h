@@ -1,4 +1,4 @@
-// carry/carry.h - what sticks to a sole, is carried on, and is left along the way. PEYRAT11 3.4, MODEL 6.16
+// carry/carry.h - what sticks to a sole, is carried on, and is left along the path. PEYRAT11 3.4, MODEL 6.16
 //
 //   cell lets go of the sole ---takes---> store of the limb ---leaves---> coat of the cells it presses next
 //
@@ -45,10 +45,10 @@ DpStatus dp_carry_lift(DpCarry* carry, DpSoilPatch* patch, long i0, long j0, DpC
 // The cells that are touched; empty: none.
 DpCellRect dp_carry_cells(const DpCarry* carry);
 
-// How much of a soil it carries now, and has taken up since it was made [m^3].
+// How much of a soil it carries now, and has taken up since it was created [m^3].
 double dp_carry_volume(const DpCarry* carry, int coat);
 double dp_carry_taken(const DpCarry* carry, int coat);
 
-// Part of a chunk of the state; to be read for a store made alike.
+// Part of a chunk of the state; to be read for a store created alike.
 void     dp_carry_save(const DpCarry* carry, DpStateWriter* writer);
 DpStatus dp_carry_load(DpCarry* carry, DpStateReader* reader);

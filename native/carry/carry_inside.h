@@ -39,5 +39,5 @@ struct DpCarry
     int     touches;
 };
 
-// carry_store.c: the number of a block, which is made if it is not there; -1 without memory
+// carry_store.c: the number of a block, which is created if it is not there; -1 without memory
 int dp_carry_block(DpCarry* carry, Block key);

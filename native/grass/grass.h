@@ -1,5 +1,5 @@
 // grass/grass.h - how grass lies between the plants, cell by cell: pressed flat under soles, parted at
-// their edge, standing up again as far as its stems are whole. MODEL 7.6
+// their edge, standing up again as far as its stems are unbroken. MODEL 7.6
 //
 // Plants are sparse, soles have edges: every planted cell that was touched keeps the lean of one
 // stem. It takes memory and time where something touched the grass, and nowhere else.
@@ -17,7 +17,7 @@ void     dp_grass_destroy(DpGrass* grass);
 DpStatus dp_grass_ready(DpGrass* grass, const DpPlantCollider* colliders, int count);
 
 // dt seconds: soles (colliders with a bottom) press and part the grass, what nothing holds stands
-// up to the share of its stems that is broken. Grass is met where the ground is told. Once it is
+// up to the share of its stems that is broken. Grass is met on the ground that is given. Once it is
 // ready for the same soles, the step may run while the plants move.
 DpStatus dp_grass_step(DpGrass* grass, const DpPlantGround* ground,
                        const DpPlantCollider* colliders, int count, double dt);
@@ -31,7 +31,7 @@ void dp_grass_grown(DpGrass* grass, double x0, double y0, double x1, double y1);
 // of height that is lost, 0..1; 0 where nothing grows or nobody went. NULL is left out.
 void dp_grass_read(const DpGrass* grass, long i0, long j0, int nx, int ny, float* lean_x,
                    float* lean_y, float* crushed);
-// How the whole stems of the cell at a point lie.
+// How the unbroken stems of the cell at a point lie.
 DpStemLean dp_grass_stem_at(const DpGrass* grass, double x, double y);
 
 // Tiles of DP_TILE x DP_TILE cells that changed since the last call, in ascending (ty, tx) order.

@@ -51,7 +51,7 @@ DpStatus                dp_writer_create(DpWriter** writer, int workers);
 void                    dp_writer_destroy(DpWriter* writer);  // when all that was given is written
 
 // What is to be packed into `frames` next: fill in tiles, then give it to the writer, from the one
-// thread that has the writer. NULL: no memory. Waits while many are on their way.
+// thread that has the writer. NULL: no memory. Waits while many are queued.
 typedef struct DpTiles DpTiles;
 DpTiles*               dp_writer_tiles(DpWriter* writer, DpFrames* frames);
 // Room for tile (tx, ty) as dp_frames_set_tile wants it, until the next call; NULL: no memory.

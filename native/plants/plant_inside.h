@@ -1,7 +1,7 @@
 // plants/plant_inside.h - what the files of this room share.
 //
 // Plants of a stand live in blocks of DP_LANES neighbours; every number of a block is an array over
-// its lanes, so that loops over lanes become wide registers. A block without `state` is whole and
+// its lanes, so that loops over lanes become wide registers. A block without `state` is unbroken and
 // in its rest shape.
 #pragma once
 #include "base/vec.h"
@@ -38,7 +38,7 @@ typedef struct PlantState
 
 typedef struct PlantBlock
 {
-    PlantState* state;  // NULL: whole and at rest
+    PlantState* state;  // NULL: unbroken and at rest
     int         count;  // lanes in use; the others repeat lane 0
     bool        awake, touched, wearing, changed;
     bool   moved;  // the ground has been asked for: it may stand elsewhere than when it was planted
@@ -136,7 +136,7 @@ double dp_plant_recovered(const PlantStand* stand, const PlantBlock* block, int 
 
 // ---- plant_broadphase.c
 
-// A collider made ready: how far it is to its side.
+// A collider prepared: how far it is to its side.
 typedef struct PlantPush
 {
     const DpPlantCollider* collider;

@@ -5,14 +5,14 @@
 //
 // A plant is a grid of particles: sheets of stems side by side, rows from the root upward. The two
 // lowest rows are held by the ground: row 0 is the root, one spacing deep, row 1 sits on the
-// surface. Plants far from feet and at rest sleep, whole ones without memory: cost follows the
+// surface. Plants far from feet and at rest sleep, unbroken ones without memory: cost follows the
 // walkers.
 //
 // Departures
 //   Rows sit height / (rows - 2) apart, so that a plant stands as high over the ground as it says.
 //   TRAIL (5): bending is the second difference along a stem against that of its rest shape; its
 //   length is the chord of (phi - phi_0), and it knows to which side the stem leans.
-//   Gravity pulls what is limp; whole stems are built as they hang.
+//   Gravity pulls what is limp; unbroken stems are built as they hang.
 //   TRAIL (6)(7): what is above a broken bend is limp, wears no more and holds nothing.
 //   TRAIL (7): a stand denser than full cover counts 1; `paper` is as printed.
 #pragma once
@@ -247,11 +247,11 @@ double dp_plant_ground_at(const DpPlantGround* ground, double x, double y);
 
 // ---- stems as they are shown ------------------------------------------------------------------
 
-// How the whole stems of a place lie, as grass keeps it; those that are broken lie by themselves.
+// How the unbroken stems of a place lie, as grass keeps it; those that are broken lie by themselves.
 typedef struct DpStemLean
 {
     double down;     // share of height that is lost; 0 = it stands
-    double lean[2];  // which way
+    double lean[2];  // direction
     bool   pressed;  // a sole lies on it
 } DpStemLean;
 typedef DpStemLean (*DpStemLeanAt)(const void* context, double x, double y);

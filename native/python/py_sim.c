@@ -258,14 +258,14 @@ static PyObject* simulation_read(Simulation* self, PyObject* args)
 
 static PyMethodDef methods[] = {
     {"rest", (PyCFunction)simulation_base_height, METH_VARARGS,
-     "rest(xy (n, 2) f8, out (n,) f8): height of the rest ground [m], NaN where there is none."},
+     "rest(xy (n, 2) f8, out (n,) f8): height of the base ground [m], NaN where there is none."},
     {"normal", (PyCFunction)simulation_normal, METH_VARARGS,
-     "normal(x, y, radius) -> (x, y, z): normal of the rest ground, smoothed over radius [m]."},
+     "normal(x, y, radius) -> (x, y, z): normal of the base ground, smoothed over radius [m]."},
     {"bounds", (PyCFunction)simulation_bounds, METH_NOARGS,
      "bounds() -> (x0, y0, x1, y1): world box of the ground [m]; infinite for flat ground."},
     {"place", dp_py_place, METH_VARARGS,
      "place(gait, walker, flat, carry, numbers by name, clearance (K,) f8, pose, com): turn a"
-     " walker's feet to the rest ground, changing pose and com. TRAIL (1) (2)"},
+     " walker's feet to the base ground, changing pose and com. TRAIL (1) (2)"},
     {"load", dp_py_load, METH_VARARGS,
      "load(time, mass, pose, limb_walker, part_limb, sole_vertex, sole_vertex_count, sole_triangle,"
      " sole_triangle_count, touching, force, point): take an evenly sampled recording with loads."},

@@ -1,4 +1,4 @@
-// python/py_terrain.c - ground meshes: what of them lies near a walk, their rest heights, and laying a trail on them.
+// python/py_terrain.c - ground meshes: what of them lies near a walk, their base heights, and laying a trail on them.
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "python/py_inside.h"

@@ -28,7 +28,7 @@ typedef struct DpSimOptions
     double       rim_width;   // `paper` heaps [m] > 0
     double       tolerance;   // slopes rest within gamma_r + this [rad] > 0
     int          max_sweeps;  // sweeps of one settling, baking: large [-] > 0
-    double normal_radius;     // the rest ground is smoothed over this for N and placement [m] > 0
+    double normal_radius;     // the base ground is smoothed over this for N and placement [m] > 0
     int    workers;           // threads, >= 1
 } DpSimOptions;
 
@@ -54,7 +54,7 @@ typedef struct DpSimReport
     double beside;        // .. what fell by the ground and is gone    [m^3]
 } DpSimReport;
 
-// The simulation borrows terrain (must outlive it) and copies the rest.
+// The simulation borrows terrain (must outlive it) and copies all else.
 DpStatus dp_sim_create(DpSim** sim, DpTerrain* terrain, const DpSimOptions* options);
 void     dp_sim_destroy(DpSim* sim);
 
@@ -99,7 +99,7 @@ DpStatus dp_sim_load(DpSim* sim, const DpGait* gait, const uint8_t* touching, co
 // The next sample of the live motion that is followed: see dp_motion_push.
 DpStatus dp_sim_push(DpSim* sim, double time, const uint8_t* present, const DpLoadedPoses* poses);
 
-// Turn one walker's feet to the rest ground of a terrain, and carry it there: see dp_foot_place.
+// Turn one walker's feet to the base ground of a terrain, and carry it there: see dp_foot_place.
 DpStatus dp_sim_place(const DpTerrain* terrain, const DpGait* gait, int walker,
                       const DpPlaceOptions* options, const double* clearance, double* pose,
                       double* com);
@@ -111,7 +111,7 @@ void dp_sim_bounds(const DpSim* sim, long bounds[4]);
 void dp_sim_reach(const DpSim* sim, long tile_x, long tile_y, int nx, int ny, uint8_t* tile);
 
 // Step over samples up to but not including `sample` (0..T). Steps already taken are not repeated.
-// One that fails leaves its step half made: what can be done then is to load anew or to destroy.
+// One that fails leaves its step half done: what can be done then is to load anew or to destroy.
 DpStatus dp_sim_run(DpSim* sim, int sample);
 
 // From now on soil sticks to soles and flies off them, spray/spray.h; before the first step. Numbers out of their

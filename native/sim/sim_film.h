@@ -2,7 +2,7 @@
 //
 //   ground ---what changed---> reel ---> films (a rectangle of tiles, some fields) ---> files
 //
-// Many films may be open at once, of the same ground or of different ones: each is told of every
+// Many films may be open at once, of the same ground or of different ones: each hears of every
 // change within its rectangle. Comes in with sim/sim.h.
 #pragma once
 #include "maps/maps.h"

@@ -83,7 +83,7 @@ typedef struct SweptSole
     DpVec3     displacement;  // of its middle [m]
     bool       jumps;         // was put elsewhere: nothing lies between
     double     low;           // its lowest [m]
-    double     ground;        // rest height below it, NaN where there is none [m]
+    double     ground;        // base height below it, NaN where there is none [m]
     bool       cast;          // the underside is known
     DpCellRect at;            // of its grids
     DpImprint  imprint;       // its own grids
@@ -266,7 +266,7 @@ DpStatus dp_speculate_open(DpSim* sim, int sample, int* limbs);
 void dp_speculate_press(DpSim* sim, int sample, int index, WorkerScratch* scratch);  // one of them
 // Cover has changed within x0..x1, y0..y1 [m]: what was lent there does not count.
 void dp_speculate_worn(DpSim* sim, double x0, double y0, double x1, double y1);
-bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still to be made
+bool dp_speculate_take(DpSim* sim);  // lay it down; false: the step has still to be done
 
 // sim_pressure.c: room for what a limb presses with on a patch, all zero; nobody stands anywhere
 DpStatus dp_pressing_open(Pressing* pressing, const Limb* limb, DpSoilPatch* patch);
@@ -299,7 +299,7 @@ DpStatus   dp_limb_carve(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScrat
                          int sample);
 
 DpStatus dp_carve_behind(DpSim* sim,
-                         Limb*  limb);  // after a long way what lies behind comes to rest
+                         Limb*  limb);  // after a long path what lies behind comes to rest
 
 // sim_release.c: what no sole stands on any more comes back, on the cells of limbs that are active, or of one
 DpStatus dp_release_step(DpSim* sim, int sample);

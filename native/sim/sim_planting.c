@@ -93,7 +93,7 @@ static void planted(DpSim* sim, const double box[4])
     dp_grass_grown(sim->stage.grass, box[0] - r, box[1] - r, box[2] + r, box[3] + r);
 }
 
-// The root on the rest ground and the slope there; false where there is none.
+// The root on the base ground and the slope there; false where there is none.
 static bool stand_on(const DpSim* sim, const DpPlantKind* kind, const float xy[2], float root[3],
                      float slope[2])
 {

@@ -72,12 +72,12 @@ typedef struct DpDescent
 typedef struct DpCarved
 {
     DpPressed pressed;              // sink is 0; area is that of the body's contact
-    double    cut_firm, cut_loose;  // volume in its way, to be laid down ahead [m^3] >= 0
+    double    cut_firm, cut_loose;  // volume it has met, to be laid down ahead [m^3] >= 0
     double    x, y;                 // middle of the contact [m]
 } DpCarved;
 
 // Push the surface down to a body wherever it stands above the underside. Of what a column loses it is pressed by no more
-// than the body has come down there; the rest was cut, as by a plough. imprint: all that the body was in since the last
+// than the body has come down there; what is left was cut, as by a plough. imprint: all that the body was in since the last
 // step. Sets imprint->ring to 0 on touched cells and to DP_RING_FAR elsewhere; changes compression, heap and pressure_time
 // of touched cells only. Pressure is what the columns would press back with, E/L0 times their depth.
 DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* descent, double dt,

@@ -9,7 +9,7 @@
 //   Heaped soil is not compressed again: all of it is pushed aside. A body that widens as it sinks presses what it has just
 //     displaced, the oftener the smaller its steps. test_carve.py, test_volume_and_rim_do_not_depend_on_the_cell
 //   A cell that the body covers by the share a is lowered by a times its column, as under a sole; heaped soil that it
-//     covers in part is cut down to 1/a of its height over the rest ground, so that no step takes it twice.
+//     covers in part is cut down to 1/a of its height over the base ground, so that no step takes it twice.
 //     test_soil_carve.c, cells_do_not_matter
 #include <string.h>
 

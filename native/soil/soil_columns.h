@@ -42,7 +42,7 @@ typedef struct Sole
     Columns            chunk[CHUNKS];
 } Sole;
 
-// soil_crust.c: whether the crust carries the load; then the cells on which the sole stands are told as pressed. And
+// soil_crust.c: whether the crust carries the load; then the cells on which the sole stands count as pressed. And
 // what the sole has broken tilts into its print.
 bool dp_crust_carries(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, double load, double dt,
                       DpPressed* pressed);

@@ -224,7 +224,7 @@ typedef struct DpTerrainState DpTerrainState;
 DpStatus dp_terrain_load(const DpTerrain* terrain, DpStateReader* reader, DpTerrainState** state);
 // It goes on from there, to the bit; the state is gone afterwards. It cannot fail. What grows is asked
 // for its cover, so restore plants first. The next dp_terrain_changed tells of all tiles that differ from
-// bare ground; those that are gone are not told of.
+// bare ground; those that are gone are not reported.
 void dp_terrain_restore(DpTerrain* terrain, DpTerrainState* state);
 void dp_terrain_state_destroy(DpTerrainState* state);  // not taken; NULL is fine
 // Take some tiles (count, 2) of it, x and y of each, rising by (y, x), and none that the terrain has; the state is gone

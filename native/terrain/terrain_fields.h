@@ -1,4 +1,4 @@
-// terrain/terrain_fields.h - the fields of the ground, each told once: add a line here.
+// terrain/terrain_fields.h - the fields of the ground, each declared once: add a line here.
 //
 // KEPT fields are what kernels change: every tile has a grid of them, 0 where nobody walked; leases
 // lend and commit them, states keep them. OTHER fields follow from the ground, its soils and plants.

@@ -26,7 +26,7 @@ DpStatus dp_gait_resample(const DpGait* gait, double rate, int count, double* ti
 
 // ---- TRAIL (1) (2): feet on a slope ---------------------------------------------------------------
 
-// The rest ground, asked for where feet come to be.
+// The base ground, asked for where feet come to be.
 typedef struct DpGroundBelow
 {
     const void* ground;
@@ -93,7 +93,7 @@ DpContactLimits dp_contact_limits_default(void);
 
 // Which part touches the ground at which time. TRAIL (4), with the clip's own resting clearance.
 // @param gait       evenly sampled (see dp_gait_resample)
-// @param ground     height of the rest ground below each contact point [m] (K, T); NaN = no ground
+// @param ground     height of the base ground below each contact point [m] (K, T); NaN = no ground
 // @param touching   out, 1 where the part touches                      [-] (P, T)
 // @param clearance  out, resting height of each point over the ground  [m] (K)
 DpStatus dp_foot_contact(const DpGait* gait, const double* ground, const DpContactLimits* limits,

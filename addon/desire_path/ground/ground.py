@@ -124,7 +124,7 @@ class Ground(Record):
     def read(path: str | os.PathLike[str], spacing: float | None = None) -> Ground:
         """Ground from an image: a height map, or the trail in a map of a bake (maps_final.exr, one of maps/).
 
-        A trail goes on as it was left: rest height, compression, heap and pressure_time, not its plants. It lies on
+        A trail goes on as it was left: base height, compression, heap and pressure_time, not its plants. It lies on
         level ground without end if it was pressed there, else there is no ground beyond the map. Give the simulation
         the map's own cell size and origin (`trail.cell`, `trail.x0`, `trail.y0`); on others the trail is averaged.
         A height map is an OpenEXR that holds its heights [m] in the channel height, Z, V, Y, or in a grey picture, NaN
