@@ -63,9 +63,16 @@ double dp_terrain_coat_volume(const DpTerrain* terrain, int coat)
     return sum * terrain->grid.cell * terrain->grid.cell;
 }
 
+#define ONE_OF_THEM(ID, name, number, unit, equation, meaning) case DP_FIELD_##ID:
+
 bool dp_terrain_knows(const DpTerrain* terrain, int field)
 {
-    if (field >= DP_FIELD_COMPRESSION && field <= DP_FIELD_HEIGHT_CHANGE) return true;
+    switch (field) {
+        DP_TERRAIN_FIELDS(ONE_OF_THEM, ONE_OF_THEM)
+        return true;
+        default:
+            break;
+    }
     const int name = field - (field >= DP_FIELD_COAT ? DP_FIELD_COAT : DP_FIELD_SURFACE);
     return name >= 0 && name < terrain->names;
 }

@@ -88,8 +88,12 @@ uint8_t dp_source_kind(const Source* source, int count, const size_t* of, const 
 
 // ---- tiles: terrain_tiles.c --------------------------------------------------------------------
 
-#define KEPT_ONE(ID, name, number, unit, equation, meaning) +1
-#define KEPT_FIELDS (DP_TERRAIN_FIELDS(KEPT_ONE, DP_FIELD_NONE))
+// places of the kept fields among each other, whatever their numbers are
+#define KEPT_PLACE(ID, name, number, unit, equation, meaning) PLACE_##ID,
+enum
+{
+    DP_TERRAIN_FIELDS(KEPT_PLACE, DP_FIELD_NONE) KEPT_FIELDS
+};
 
 #define TILE_GRID(ID, name, number, unit, equation, meaning) float name[TILE_CELLS];
 typedef struct Tile

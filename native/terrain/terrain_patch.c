@@ -100,7 +100,7 @@ static void copy_in(const DpTerrain* terrain, Tile* tile, const TilePart* part, 
     }
 }
 
-#define PATCH_GRID(ID, name, number, unit, equation, meaning) .name = grid[number + 1],
+#define PATCH_GRID(ID, name, number, unit, equation, meaning) .name = grid[PLACE_##ID + 1],
 
 DpStatus dp_terrain_acquire(DpTerrain* terrain, DpLease* lease, DpCellRect cells,
                             DpSoilPatch** patch)

@@ -1,5 +1,7 @@
 """The mesh that shows prints: no gaps, fine where the trail bends, what lies on the faces interpolated."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -109,7 +111,9 @@ def test_too_fine_a_wish_stops_and_says_so():
 
 def test_points_that_are_nowhere_are_named():
     mesh = plane()
-    mesh.points[2, 1] = np.nan
+    points = mesh.points.copy()
+    points[2, 1] = np.nan
+    mesh = replace(mesh, points=points)
     height, changed = print_of()
     with pytest.raises(DesirePathError, match="Vertex 2"):
         refine.refine(mesh, refine.wishes(height, changed, CELL, (3.0, 3.0)))

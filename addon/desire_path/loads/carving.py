@@ -41,9 +41,7 @@ def carved(gait: Gait, ground: GivenHeights, found: FootForce) -> FootForce:
     for part in np.flatnonzero(carving[owner]).tolist():
         _check_near(gait, places, part)
     heights, below = places[..., 2], ground_below(gait, ground)
-    touching, warnings = found.touching, list(found.warnings)
-    if isinstance(touching, np.ndarray):
-        touching = touching.copy()
+    touching, warnings = tracks.writable(found.touching), list(found.warnings)
     for w in np.flatnonzero(carving):
         meets, lost = False, np.zeros(len(gait.time), bool)
         for part in np.flatnonzero(owner == w).tolist():

@@ -240,6 +240,13 @@ def values(array: Array) -> list[np.ndarray]:
     return [each for _, _, each in array.blocks] if isinstance(array, TrackArray) else [array]
 
 
+def writable(array: Array) -> Array:
+    """A copy that may be written, in tracks where it is."""
+    if isinstance(array, TrackArray):
+        return array.alike([own.copy() for own in values(array)], array.missing)
+    return array.copy()
+
+
 def joined(arrays: Sequence[Array]) -> Array:
     """Arrays over the same samples as one, row after row."""
     if not any(isinstance(each, TrackArray) for each in arrays):

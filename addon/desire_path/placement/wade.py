@@ -138,11 +138,7 @@ def wade(gait: Gait, trial: Simulation, lift: float | None = None, *, walkers: C
 
 def _with_legs(gait: Gait, lowered: tracks.Array, wades: np.ndarray) -> Gait:
     """The recording, and legs of those who wade (W,) that go as much lower as told (P, T) [m]."""
-    pose = (
-        gait.pose.alike([values.copy() for values in tracks.values(gait.pose)], None)
-        if isinstance(gait.pose, tracks.TrackArray)
-        else gait.pose.copy()
-    )
+    pose = tracks.writable(gait.pose)
     for values, down in zip(tracks.values(pose), tracks.values(lowered)):
         values[..., 2] -= down
     legs = replace(

@@ -68,6 +68,9 @@ TEST(soils_that_stick_at_some_time_have_a_coat)
     const int* soils = NULL;
     CHECK(dp_terrain_coats(terrain, &soils) == 2 && soils[0] == 1 && soils[1] == 2);
     CHECK(dp_terrain_coats(terrain, NULL) == 2);
+    int                      count;
+    const DpFieldInfo* const fields = dp_terrain_fields(&count);
+    for (int f = 0; f < count; ++f) CHECK(dp_terrain_knows(terrain, fields[f].field));
     const int known[] = {DP_FIELD_COMPRESSION, DP_FIELD_HEIGHT_CHANGE, DP_FIELD_SURFACE,
                          DP_FIELD_SURFACE + 2, DP_FIELD_COAT,          DP_FIELD_COAT + 2};
     const int unknown[] = {DP_FIELD_COMPRESSION - 1, DP_FIELD_HEIGHT_CHANGE + 1,
