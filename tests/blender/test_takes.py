@@ -6,6 +6,7 @@ from scenes import meshes, people
 
 from desire_path.blender import compat, moves, sample, seams
 from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import Soil
 from desire_path.loads import walker
 
 ASIDE = 2.0  # [m]
@@ -58,7 +59,7 @@ def recorded(obj, first, last):
 
 def prints(gait):
     gait = gait.resample(120.0)
-    land = Simulation(Ground.heights(np.zeros((300, 300)), CELL, -2.0, -4.0), "dry-sand", CELL)
+    land = Simulation(Ground.heights(np.zeros((300, 300)), CELL, -2.0, -4.0), Soil(), CELL)
     land.load(gait, walker.loads(gait, ground=land.rest_height))
     land.run(len(gait.time) - 1)
     return land.read("compression", -100, -200, 300, 300)

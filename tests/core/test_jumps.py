@@ -224,3 +224,27 @@ def test_who_has_no_feet_does_not_jump():
     ghost = gaits.writable(ghost)
     ghost.com[1, 40:] += 3.0
     assert jumps.found(ghost.check()) is ghost
+
+
+@pytest.mark.parametrize("samples", (1, 2, 3, 4))
+@pytest.mark.parametrize("off", (0.25, 0.5, 0.75))
+def test_a_jump_spread_over_two_frames_is_one(samples, off):
+    """Keys half a frame off: what is shown between them lies half in this frame, half in the next."""
+    gait = recorded(fps=120)
+    step = 5 // samples if samples == 1 else 1
+    fps = gait.frame_rate / (step * samples)
+    fine = replace(gait, time=gait.time[::step], com=gait.com[:, ::step], pose=gait.pose[:, ::step], frame_rate=fps)
+    at = (np.arange(len(fine.time)) / samples - 10.0 - off).clip(0.0, 1.0)
+    cut = jumps.found(moved(fine, slice(None), at[:, None] * (0.0, -2.0, 0.0)))
+    inside = np.flatnonzero((at > 0.0) & (at < 1.0))
+    assert len(cut.cut) and set(inside) <= set(range(int(cut.cut[0]), int(cut.cut[-1]) + 1)), (inside, cut.cut)
+    assert int(cut.cut[-1]) - int(cut.cut[0]) <= 2 * samples
+    assert not walker.loads(cut).touching[:, inside].any()
+
+
+def test_who_walks_in_one_piece_is_not_said_to_touch_nothing_in_another():
+    gait = recorded(fps=60)
+    up = moved(gait, slice(0, 20), (0.0, 0.5, 0.6))  # waits in the air
+    loads = walker.loads(up)
+    assert loads.touching[:, 30:].any() and not loads.touching[:, :20].any()
+    assert not any("never touches" in each for each in loads.warnings), loads.warnings

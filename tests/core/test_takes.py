@@ -3,12 +3,24 @@
 import numpy as np
 import pytest
 from scenes import trials
-from test_freeze import CELL, gait_of, prints, walk
+from test_freeze import CELL, gait_of, walk
 
+from desire_path.ground.sim import Ground, Simulation
+from desire_path.ground.soil import Soil
 from desire_path.loads import walker
 from desire_path.motion import freeze, stays
 from desire_path.rig import body
 from desire_path.rig.body import Motion
+
+
+def prints(gait):
+    """What it presses in a soil that is the same everywhere [m], and its loads."""
+    gait = gait.resample(120.0)
+    land = Simulation(Ground.heights(np.zeros((300, 500)), CELL, -3.0, -3.0), Soil(), CELL)
+    loads = walker.loads(gait, ground=land.rest_height)
+    land.load(gait, loads)
+    land.run(len(gait.time) - 1)
+    return land.read("compression", -150, -150, 500, 300), loads
 
 
 def again(motion, aside, rate=30.0):

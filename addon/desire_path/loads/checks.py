@@ -31,6 +31,11 @@ def sinks(gait: Gait, below: np.ndarray) -> None:
             )
 
 
+def never(name: str) -> str:
+    """What is told of a walker that touches nothing."""
+    return f"{name} never touches the ground: check its feet, its scale and the frame range."
+
+
 def hovers(gait: Gait, touching: np.ndarray, clearance: np.ndarray, size: float) -> list[str]:
     """A sentence for each walker whose feet stand far from the ground."""
     warnings = []
@@ -117,9 +122,7 @@ def weigh(gait: Gait, touching: np.ndarray, force: np.ndarray) -> tuple[np.ndarr
         parts = np.flatnonzero(np.isin(gait.part_limb, limbs))
         on = np.array([touching[gait.part_limb == limb].any(axis=0) for limb in limbs])
         if not on.any():
-            warnings.append(
-                f"{gait.walker_name[w]} never touches the ground: check its feet, its scale and the frame range."
-            )
+            warnings.append(never(str(gait.walker_name[w])))
             mean[w] = 0.0
             continue
         if count < 5:

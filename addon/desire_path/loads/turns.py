@@ -16,7 +16,7 @@ from ..motion import size as sizes
 from ..motion.gait import Gait
 from ..motion.tracks import Array
 from .below import GivenHeights, GroundHeights, heights_given, heights_of, is_alike
-from .checks import Sunk
+from .checks import Sunk, never
 from .force import GRAVITY, FootForce
 
 ASIDE = 0.3  # a walker put aside is farther up or down than this share of its mass centre's height over its feet
@@ -147,7 +147,7 @@ def together(gait: Gait, turns: Iterable[tuple[Turn, FootForce | Sunk]]) -> Foot
     """FootForce of the whole recording from those of its turns, or why there is none."""
     touching, held = tracks.blank(gait.pose, (), "u1", 0), tracks.blank(gait.pose, (), bool, False)
     force, point = tracks.blank(gait.pose, (3,), float, 0.0), tracks.blank(gait.pose, (3,), float, np.nan)
-    clearance, warnings, sunk = list[np.ndarray](), list[str](), list[Sunk]()
+    clearance, warnings, sunk, touched = list[np.ndarray](), list[str](), list[Sunk](), set[int]()
     weighed, span = np.zeros(len(gait.mass)), np.zeros(len(gait.mass))
 
     def known() -> Iterator[tuple[Turn, Array, np.ndarray, FootForce]]:
@@ -163,9 +163,12 @@ def together(gait: Gait, turns: Iterable[tuple[Turn, FootForce | Sunk]]) -> Foot
             tracks.put(array, turn.parts, samples, values)
         clearance.append(turn.known(found.touching, found.clearance))
         warnings += found.warnings
+        touched.update(gait.limb_walker[gait.part_limb[turn.parts[found.touching.any(axis=1)]]].tolist())
         if found.mean is not None:
             weighed[turn.walkers] += len(turn.samples) * found.mean
             span[turn.walkers] += len(turn.samples)
+    there = {never(str(gait.walker_name[walker])) for walker in touched}  # in another piece
+    warnings = [each for each in warnings if each not in there]
     if sunk and not clearance:
         raise sunk[0]
     for on, push, centre in zip(*map(tracks.values, (touching, force, point))):

@@ -34,6 +34,7 @@ MAX_FALL = 1.5  # gravity takes no leg farther than this beyond its path in one 
 BEYOND = 1.5  # and a jump is larger by this than nine of ten steps around it
 AT_ONCE = 0.8  # share of a frame's path that is jumped from one sample to the next
 STAYS = 0.25  # feet that go by less than this share of the body's path stay, and a body whose feet stay sways
+COARSE = 1.0 / 8.0  # steps so long still tell jumps from what bodies do [s]
 HELD = 0.25  # a pose held longer stands still [s]
 AROUND = 0.5  # this long to either side [s]
 
@@ -95,25 +96,39 @@ def between(
 
     time (T,) [s], com (T, 3), feet (L, T, 3) [m]; start: when a frame begins [s]; min_leg: legs are no shorter
     [m]. An animation that was looked at more often than once a frame spreads a jump over the samples of a frame:
-    steps of frames are measured, too.
+    steps of frames are measured, too. One whose keys lie between frames spreads it over two of them, where each half is
+    like the other: so are steps of two frames, as long as those tell what bodies do.
     """
     if len(time) < 3:
         return []
     leg = max(float(np.median(np.linalg.norm(com - feet, axis=-1).max(axis=0))), min_leg)
     frames = np.flatnonzero(abs((time - start) * frame_rate - np.round((time - start) * frame_rate)) < 1e-3)
-    jumps = []
-    for a, b, size in _steps(time[frames], com[frames], feet[:, frames], leg) if len(frames) < len(time) else ():
-        a, b = int(frames[a]), int(frames[b])
-        path = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
-        if path.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
-            a += int(path.argmax())
-            b = a + 1
-        jumps.append((a, b, size))
-    ends = [0, *(sample for a, b, _ in jumps for sample in (a + 1, b)), len(time)]
-    for first, after in zip(ends[:-1:2], ends[1::2]):  # between them
-        part = slice(first, after)
-        jumps += [(first + a, first + b, size) for a, b, size in _steps(time[part], com[part], feet[:, part], leg)]
+    jumps = [
+        _at_once(com, int(frames[a]), int(frames[b]), size)
+        for a, b, size in (_steps(time[frames], com[frames], feet[:, frames], leg) if len(frames) < len(time) else ())
+    ]
+    for _ in range(2):  # what a jump leaves on its other side may be one, too
+        ends = [0, *(sample for a, b, _ in sorted(jumps) for sample in (a + 1, b)), len(time)]
+        more = []
+        for first, after in zip(ends[:-1:2], ends[1::2]):  # between them
+            part = slice(first, after)
+            more += [(first + a, first + b, size) for a, b, size in _steps(time[part], com[part], feet[:, part], leg)]
+        jumps += more
+    for pairs in (frames[::2], frames[1::2]) if 2.0 / frame_rate < COARSE + 1e-6 else ():
+        for k, after, size in _steps(time[pairs], com[pairs], feet[:, pairs], leg):
+            a, b, size = _at_once(com, int(pairs[k]), int(pairs[after]), size)
+            if not any(a < other[1] and other[0] < b for other in jumps):
+                jumps.append((a, b, size))
     return sorted(jumps)
+
+
+def _at_once(com: np.ndarray, a: int, b: int, size: float) -> Jump:
+    """A jump from a sample to a later one, between two of them only where most of the way lies."""
+    path = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
+    if path.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
+        a += int(path.argmax())
+        b = a + 1
+    return a, b, size
 
 
 def _steps(time: np.ndarray, com: np.ndarray, feet: np.ndarray, leg: float) -> list[Jump]:
