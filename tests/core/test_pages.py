@@ -150,7 +150,7 @@ def test_recipes_name_what_their_files_hold():
     """Tables and lists of which a recipe speaks stand in a file that the same step names."""
     recipes = (ROOT / "native" / "README.md").read_text("utf-8").split("## Recipes")[1]
     heads = re.findall(r"^### (.*)", recipes, re.MULTILINE)
-    assert heads == ["A soil, or a kind of plant", "A soil's number", "A map", "A rig name", "A room"]
+    assert heads == ["A soil", "A kind of plant", "A soil's number", "A map", "A rig name", "A room"]
     count = 0
     for step in re.split(r"^(?:\d+\. |### )", recipes, flags=re.MULTILINE)[1:]:
         files = [ROOT / path for path in re.findall(r"`([\w./-]+/[\w./-]+)`", step) if (ROOT / path).is_file()]
