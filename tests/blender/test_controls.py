@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 from scenes import meshes, people, rigified
-from test_place import ASIDE, UP, check_placed, heads, hill, keys, on_hill, operator, scene_of
+from test_place import ASIDE, UP, check_placed, heads, hill, is_undone, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused
 
 from desire_path.blender import compat, controls, op_place, posing, private, sample
@@ -263,9 +263,4 @@ def test_what_holds_led_feet_is_a_sentence():
 def test_led_feet_are_undone():
     obj = puppet()
     scene_of(obj)
-    old = obj.animation_data.action.name
-    bpy.ops.ed.undo_push(message="before")
-    operator.desire_path_place_feet()
-    bpy.ops.ed.undo_push(message="placed")
-    bpy.ops.ed.undo()
-    assert bpy.data.objects["Walker"].animation_data.action.name == old
+    assert is_undone(obj)

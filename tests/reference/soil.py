@@ -211,6 +211,15 @@ def carve(patch, bottom, cover, descent):
 # ---- ours: how they come to rest, MODEL 6.4 -----------------------------------------------------
 
 
+def around(j, i, stands, cell):
+    """(cell, how far its middle is [m]) of each of the eight around that may take soil."""
+    for dj in (-1, 0, 1):
+        for di in (-1, 0, 1):
+            q = (j + dj, i + di)
+            if (dj or di) and 0 <= q[0] < stands.shape[0] and 0 <= q[1] < stands.shape[1] and not stands[q]:
+                yield q, cell * math.hypot(dj, di)
+
+
 def sweep(patch, touched=None, tolerance=1e-5):
     """One sweep with both stencils, by loops."""
     slack = math.tan(tolerance) * patch["cell"]
@@ -223,15 +232,10 @@ def sweep(patch, touched=None, tolerance=1e-5):
             if stands[j, i]:
                 continue
             excess = {}
-            for dj in (-1, 0, 1):
-                for di in (-1, 0, 1):
-                    q = (j + dj, i + di)
-                    if not (dj or di) or not (0 <= q[0] < ny and 0 <= q[1] < nx) or stands[q]:
-                        continue
-                    far = patch["cell"] * math.hypot(dj, di)
-                    over = height[j, i] - height[q] - patch["rest_slope"][j, i] * far  # TRAIL (14)
-                    if over > 0:
-                        excess[q] = over
+            for q, far in around(j, i, stands, patch["cell"]):
+                over = height[j, i] - height[q] - patch["rest_slope"][j, i] * far  # TRAIL (14)
+                if over > 0:
+                    excess[q] = over
             if not excess:
                 continue
             steepest = max(over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items())
@@ -262,15 +266,11 @@ def walls(patch, touched=None, tolerance=1e-5):
             if stands[j, i] or not np.isfinite(patch["wall_slope"][j, i]):
                 continue
             excess = {}
-            for dj in (-1, 0, 1):
-                for di in (-1, 0, 1):
-                    q = (j + dj, i + di)
-                    if not (dj or di) or not (0 <= q[0] < ny and 0 <= q[1] < nx) or stands[q]:
-                        continue
-                    steep = patch["wall_slope"][j, i] * patch["cell"] * math.hypot(dj, di)
-                    over = firm[j, i] - height[q] - max(steep, patch["rest"][j, i] - patch["rest"][q])
-                    if over > 0:
-                        excess[q] = over
+            for q, far in around(j, i, stands, patch["cell"]):
+                steep = patch["wall_slope"][j, i] * far
+                over = firm[j, i] - height[q] - max(steep, patch["rest"][j, i] - patch["rest"][q])
+                if over > 0:
+                    excess[q] = over
             if not excess:
                 continue
             steepest = max(over / math.hypot(q[0] - j, q[1] - i) for q, over in excess.items())

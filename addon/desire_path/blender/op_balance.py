@@ -11,9 +11,8 @@ from bpy.props import BoolProperty, FloatProperty
 
 from ..errors import DesirePathError
 from .late import balance, compat, layer, np
-from .messages import tell
 from .op_place import frames_of, recorded
-from .ops import Refusal, active
+from .ops import TakenOff
 
 LEAST = math.radians(0.5)  # who leans less anywhere stands as well as not
 
@@ -56,7 +55,7 @@ def remove(armature):
     return before.name
 
 
-class OBJECT_OT_desire_path_balance(Refusal, bpy.types.Operator):
+class OBJECT_OT_desire_path_balance(TakenOff, bpy.types.Operator):
     """Let the body of the active armature lean into slopes and swing on ground that gives way, its feet staying where \
 they are. Makes a new action; the one it had stays"""
 
@@ -88,32 +87,16 @@ they are. Makes a new action; the one it had stays"""
     )
     remove: BoolProperty(name="Take Off", description="Play the action again that the balanced one was made from")
 
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"ARMATURE"}, "the armature that walks")
+    take_off = staticmethod(remove)
 
-    def work(self, context):
-        obj = context.object
-        context.view_layer.update()
-        if self.remove:
-            tell(self, "INFO", f"'{obj.name}' plays '{remove(obj)}' again.")
-            return {"FINISHED"}
-        land = obj.desire_path.ground
-        if land is None:
-            raise DesirePathError(f"'{obj.name}' walks on no ground yet: press Add Walker, or choose its ground.")
+    def change(self, scene, obj, land):
         options = balance.BalanceOptions(share=self.share, stiffness=self.stiffness, damping=self.damping)
-        action, lean, warnings = bake(context.scene, obj, land, options)
-        for each in warnings:
-            tell(self, "WARNING", each)
+        action, lean, warnings = bake(scene, obj, land, options)
         low, high = (round(math.degrees(each)) for each in (lean.angle.min(), lean.angle.max()))
         back = action.get(layer.BALANCED)
-        tell(
-            self,
-            "INFO",
-            f"'{obj.name}' plays '{action.name}', leaning by {low} to {high} degrees"
-            + (f"; '{back}' is as it was." if back else "."),
+        return warnings, f"'{obj.name}' plays '{action.name}', leaning by {low} to {high} degrees" + (
+            f"; '{back}' is as it was." if back else "."
         )
-        return {"FINISHED"}
 
 
 CLASSES = (OBJECT_OT_desire_path_balance,)

@@ -12,9 +12,8 @@ from bpy.props import BoolProperty, EnumProperty
 
 from ..errors import DesirePathError
 from .late import baking, clock, compat, effort, home, np, playback, settle_feet, state, walker
-from .messages import tell
 from .op_place import frames_of, recorded
-from .ops import Refusal, active
+from .ops import TakenOff
 
 TRACK = "Desire Path Slow Down"  # name of the track and the strip that are ours
 LEAST = 1.02  # who takes less than so many times as long is not slowed
@@ -120,7 +119,7 @@ def take_off(armature):
     return action.name
 
 
-class OBJECT_OT_desire_path_slow_down(Refusal, bpy.types.Operator):
+class OBJECT_OT_desire_path_slow_down(TakenOff, bpy.types.Operator):
     """Let the active armature walk as slowly as its prints are deep, at the effort of firm ground. Its keys stay: a \
 strip of the NLA editor plays them, by a curve of time to work on"""
 
@@ -138,29 +137,14 @@ strip of the NLA editor plays them, by a curve of time to work on"""
     )
     remove: BoolProperty(name="Take Off", description="Play the action again at its own time")
 
-    @classmethod
-    def poll(cls, context):
-        return active(cls, context, {"ARMATURE"}, "the armature that walks")
+    take_off = staticmethod(take_off)
 
-    def work(self, context):
-        obj = context.object
-        context.view_layer.update()
-        if self.remove:
-            tell(self, "INFO", f"'{obj.name}' plays '{take_off(obj)}' again.")
-            return {"FINISHED"}
-        land = obj.desire_path.ground
-        if land is None:
-            raise DesirePathError(f"'{obj.name}' walks on no ground yet: press Add Walker, or choose its ground.")
-        longer, end, eta, warnings = slow_down(context.scene, obj, land, self.surface)
-        for each in warnings:
-            tell(self, "WARNING", each)
-        tell(
-            self,
-            "INFO",
+    def change(self, scene, obj, land):
+        longer, end, eta, warnings = slow_down(scene, obj, land, self.surface)
+        return warnings, (
             f"Walking costs '{obj.name}' {eta:.1f} times as much as on firm ground: at equal effort it takes "
-            f"{longer:.2f} times as long, up to frame {math.ceil(end - 1e-3)}.",
+            f"{longer:.2f} times as long, up to frame {math.ceil(end - 1e-3)}."
         )
-        return {"FINISHED"}
 
 
 CLASSES = (OBJECT_OT_desire_path_slow_down,)

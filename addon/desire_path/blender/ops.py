@@ -28,6 +28,29 @@ class Refusal:
             return {"CANCELLED"}
 
 
+class TakenOff(Refusal):
+    """Operators that let an armature that walks play its action otherwise, or, with *Take Off*, as before."""
+
+    @classmethod
+    def poll(cls, context):
+        return active(cls, context, {"ARMATURE"}, "the armature that walks")
+
+    def work(self, context):
+        obj = context.object
+        context.view_layer.update()
+        if self.remove:
+            tell(self, "INFO", f"'{obj.name}' plays '{self.take_off(obj)}' again.")
+            return {"FINISHED"}
+        land = obj.desire_path.ground
+        if land is None:
+            raise DesirePathError(f"'{obj.name}' walks on no ground yet: press Add Walker, or choose its ground.")
+        warnings, said = self.change(context.scene, obj, land)
+        for each in warnings:
+            tell(self, "WARNING", each)
+        tell(self, "INFO", said)
+        return {"FINISHED"}
+
+
 class AsksFirst:
     """Operators that give up the bake of the active ground: in a window they ask."""
 

@@ -73,3 +73,11 @@ static inline DpTerrain* ground_terrain(const DpGround* ground, double cell, dou
     if (status != DP_OK) printf("  no terrain: %s\n", dp_status_text(status));
     return terrain;
 }
+
+// a ground that a test has spoiled is refused; then it is as good as before
+#define CHECK_REFUSED(terrain, options, spoiled, good, want)                    \
+    do {                                                                        \
+        CHECK(dp_terrain_create(&(terrain), &(options), &(spoiled)) == (want)); \
+        CHECK((terrain) == NULL);                                               \
+        (spoiled) = (good);                                                     \
+    } while (0)

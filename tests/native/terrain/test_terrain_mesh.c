@@ -299,12 +299,7 @@ TEST(bad_meshes_are_refused)
     const DpTerrainOptions options = ground_options(0.01, 0.0, 0.0);
     const DpGround         good = ground_mesh(4, vertex, 2, triangle);
     DpGround               bad = good;
-#define STATUS(want)                                                  \
-    do {                                                              \
-        CHECK(dp_terrain_create(&terrain, &options, &bad) == (want)); \
-        CHECK(terrain == NULL);                                       \
-        bad = good;                                                   \
-    } while (0)
+#define STATUS(want) CHECK_REFUSED(terrain, options, bad, good, want)
     vertex[4] = (double)NAN;
     STATUS(DP_BAD_ARGUMENT);
     vertex[4] = (double)-INFINITY;

@@ -114,12 +114,7 @@ TEST(bad_heights_are_refused)
     const DpTerrainOptions options = ground_options(0.01, 0.0, 0.0);
     const DpGround         good = ground_heights(3, 3, 0.0, 0.0, 1.0, height);
     DpGround               bad = good;
-#define STATUS(want)                                                  \
-    do {                                                              \
-        CHECK(dp_terrain_create(&terrain, &options, &bad) == (want)); \
-        CHECK(terrain == NULL);                                       \
-        bad = good;                                                   \
-    } while (0)
+#define STATUS(want) CHECK_REFUSED(terrain, options, bad, good, want)
     bad.nx = 1;
     STATUS(DP_BAD_ARGUMENT);
     bad.ny = 0;
