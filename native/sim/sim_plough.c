@@ -4,7 +4,7 @@
 #include "base/vec.h"
 #include "sim/sim_inside.h"
 
-#define STILL 1e-6  // what goes no farther along the ground in a step stands [m]
+#define STILL 1e-4  // of a cell's side: what goes no farther along the ground in a step stands
 
 // what a part bears at fraction `w` of an interval [N]
 static double borne(const DpSim* sim, int part, int sample, double w)
@@ -30,13 +30,13 @@ static void add(DpSlide* slide, const Moved* m, DpVec3 middle, double share)
     slide->by_z[0] -= share * z.x, slide->by_z[1] -= share * z.y;
 }
 
-static bool stands(const DpSlide* slide, double wide)
+static bool stands(const DpSlide* slide, double wide, double cell)
 {
     double farthest = 0.0;
     for (int k = 0; k < 2; ++k)
         farthest += fabs(slide->at[k]) +
                     (fabs(slide->by_x[k]) + fabs(slide->by_y[k]) + fabs(slide->by_z[k])) * wide;
-    return !(farthest > STILL);
+    return !(farthest > STILL * cell);
 }
 
 bool dp_limb_slides(const DpSim* sim, const Limb* limb, const DpSoilPatch* patch, int sample,
@@ -55,7 +55,7 @@ bool dp_limb_slides(const DpSim* sim, const Limb* limb, const DpSoilPatch* patch
         const Moved m = dp_limb_moved(sim, limb->part[p], sample, w0, w1);
         add(slide, &m, middle, share);
     }
-    return !stands(slide, limb->length);
+    return !stands(slide, limb->length, patch->cell);
 }
 
 void dp_plough_count(Limb* limb, const DpPressed* pressed)

@@ -28,6 +28,7 @@
 #include "soil/soil_heaps.h"
 
 #define HOLLOW 0.5    // cells pressed to this share of the deepest under the sole are hollow
+#define LEVEL 0.1     // where no more of what lies ahead is level, the hollow is filled
 #define MATCH 0.0002  // a volume this close is right; the rest is a common factor
 #define MAX_ROUNDS 40
 
@@ -149,23 +150,25 @@ static size_t count_border(const DpSoilPatch* patch, const DpImprint* imprint)
     return count;
 }
 
-// border cells with a share; *width = sum of omega * cell, the border's length; box is theirs
-static void find_apexes(Heap* heap, const HeapShares* shares, double slope, double* width,
-                        DpCellRect* box)
+// Border cells with a share; *width = sum of omega * cell, the border's length; box is theirs. The share of that which
+// does not lie in the hollow.
+static double find_apexes(Heap* heap, const HeapShares* shares, double slope, double* width,
+                          DpCellRect* box)
 {
     const DpSoilPatch* patch = heap->patch;
     const DpImprint*   imprint = heap->imprint;
     const int          i0 = imprint->i0 > 0 ? imprint->i0 - 1 : 0;
     const int          j0 = imprint->j0 > 0 ? imprint->j0 - 1 : 0;
     int                count = 0;
-    double             sum = 0.0;
+    double             sum = 0.0, hollow = 0.0;
     *box = (DpCellRect){0};
     for (int j = j0; j < patch->ny && j <= imprint->j1; ++j)
         for (int i = i0; i < patch->nx && i <= imprint->i1; ++i) {
             const size_t p = soil_at(patch, i, j);
-            if (imprint->ring[p] != 1 || !takes_soil(heap, p)) continue;
+            if (imprint->ring[p] != 1 || !soil_is_ground(patch->base_height[p])) continue;
             const double share = dp_soil_heap_share(shares, patch, i, j);
-            if (!(share > 0.0)) continue;
+            if (!takes_soil(heap, p)) hollow += share;
+            if (!(share > 0.0) || !takes_soil(heap, p)) continue;
             const double firm = (double)patch->base_height[p] - (double)patch->compression[p];
             const bool   spills = shares->cut > 0.0 && !shares->even;
             const double within = spills ? dp_soil_heap_within(shares, i, j) : 0.0;
@@ -181,6 +184,7 @@ static void find_apexes(Heap* heap, const HeapShares* shares, double slope, doub
         }
     *width = sum * patch->cell;
     heap->apex_count = count;
+    return count ? sum / (sum + hollow) : 0.0;
 }
 
 // ---- laying ----------------------------------------------------------------------------------
@@ -223,10 +227,9 @@ DpStatus dp_soil_heap_rest(DpSoilPatch* patch, const DpImprint* imprint, const H
     char*        block = block_for(patch, apexes, scratch);
     if (!block) return DP_NO_MEMORY;
     heap.apex = (Apex*)(void*)block;
-    find_apexes(&heap, shares, slope, &width, &border);
-    if (heap.apex_count == 0) {  // all that lies ahead is hollow: then it is filled
+    if (!(find_apexes(&heap, shares, slope, &width, &border) > LEVEL)) {
         heap.hollow = INFINITY;
-        find_apexes(&heap, shares, slope, &width, &border);
+        (void)find_apexes(&heap, shares, slope, &width, &border);
     }
     if (heap.apex_count == 0) return DP_NO_GROUND;
 

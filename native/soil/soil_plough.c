@@ -8,7 +8,7 @@
 
 #include "soil/soil_law.h"
 
-#define NOISE 1e-7  // less than this is not cut, but pressed [m]
+#define NOISE 1e-5  // of a cell's side: less than this is not cut, but pressed
 
 Turn dp_plough_begin(const DpSoilPatch* patch, DpImprint* imprint)
 {
@@ -184,7 +184,7 @@ void dp_plough(DpSoilPatch* patch, const DpImprint* imprint, DpPressed* pressed)
             const double was = cover * (1.0 - met.in_way / goal);
             const double swept = soil_max(met.swept, part * uncovered(was, cover));
             const double loose = swept * (double)patch->heap[p], firm = part * met.in_way;
-            if (!(loose + firm > NOISE)) continue;
+            if (!(loose + firm > NOISE * patch->cell)) continue;
             const Cut    cut = dp_cut_cell(patch, p, loose, firm, 1.0);
             const double all = cut.firm + cut.loose;
             pressed->cut_firm += cut.firm, pressed->cut_loose += cut.loose;

@@ -200,8 +200,33 @@ TEST(without_ground_or_memory_nothing_is_laid)
     ground_free(&g);
 }
 
+// Where all but a sliver of what lies ahead is hollow the heap is laid in the hollow; it would be a needle else.
+TEST(a_sliver_of_level_ground_does_not_take_it_all)
+{
+    Ground         g = stand(0.0, 0.20, 0.10);
+    double         height = 0.0;
+    const double   aslant = 1e-6;
+    DpSoilScratch* scratch = dp_soil_scratch_create();
+    for (int k = 0; k < N * N; ++k)
+        g.compression[k] = g.imprint.ring[k] == 0 || k % N > N / 2 + 6 ? 0.05f : 0.0f;
+    const HeapShares shares = {.cut = 1.0,
+                               .cut_x = sqrt(1.0 - aslant * aslant),
+                               .cut_y = aslant,
+                               .left = -INFINITY,
+                               .right = INFINITY,
+                               .imprint = &g.imprint};
+    CHECK(dp_soil_heap_rest(&g.patch, &g.imprint, &shares, 1e-5, slope_of(&g), &height, scratch) ==
+          DP_OK);
+    CHECK(height < 0.1);
+    CHECK_CLOSE(ground_sum(&g, g.heap), 1e-5, 1e-6);
+    CHECK(ground_max(&g, g.heap) < 0.02);
+    dp_soil_scratch_destroy(scratch);
+    ground_free(&g);
+}
+
 int main(void)
 {
+    RUN(a_sliver_of_level_ground_does_not_take_it_all);
     RUN(all_of_it_is_laid_at_rest_and_none_under_the_sole);
     RUN(along_a_straight_edge_it_is_a_triangle);
     RUN(two_volumes_are_laid_as_one);
