@@ -156,7 +156,7 @@ def test_blender_finds_them():
         view.language = "de_DE"
         view.use_translate_interface = True
         assert bpy.app.translations.pgettext_iface("Walk It", "Operator") == "Loslaufen"
-        assert bpy.app.translations.pgettext_iface("Loose Layer") == "Lockere Schicht"
+        assert bpy.app.translations.pgettext_iface("Loose Layer") == "Schicht"
         assert bpy.app.translations.pgettext_tip("First frame that is baked") == "Erstes Bild, das gebacken wird"
         assert translations.say("Free the bake of '{}'?", "Weg") == "Gebackenes von 'Weg' löschen?"
     finally:
