@@ -40,8 +40,8 @@ def test_half_as_stiff_is_twice_as_deep(folder):
     settings.soil_numbers.young_modulus = 0.5 * SOILS["soil"].young_modulus
     assert settings.soil_numbers.changed and settings.bake_state == "OUTDATED"
     soft = baked(ground)
-    assert 1.45 < soft / firm < 2.2, (soft, firm)  # a foot that rolls stands less long on each place, and one that slides
-    # pushes what is soft ahead of itself
+    # a foot that rolls stands less long on each place, and one that slides pushes what is soft ahead of itself
+    assert 1.45 < soft / firm < 2.2, (soft, firm)
     assert settings.bake_state == "FRESH", settings.missing
     settings.soil = "soil"  # chosen again: as it was
     assert not settings.soil_numbers.changed and baked(ground) == firm
