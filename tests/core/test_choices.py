@@ -138,3 +138,16 @@ def test_a_bake_with_impulse_stops_feet_in_the_time_of_its_soil(tmp_path):
     for tau in (0.05, 0.2, 0.5):
         made = bake(tmp_path / str(tau), gait, replace(SOIL, settle_time=tau), load_model="impulse")
         assert -made.loads.force[0, :, 2].min() == pytest.approx(10.0 * (G + 1.0 / tau), rel=0.03)
+
+
+def test_the_load_presses_along_the_normal_of_the_ground_around_not_of_a_ridge_under_the_sole():
+    """MODEL 6.2: it is fitted over 0.25 m, so that ridges of 8 cm with slopes of 1 : 2 carry the whole weight."""
+    x = np.arange(-100, 101) * 0.01
+    ridges = 0.02 - abs((x % 0.08) - 0.04) * 0.5
+    ground = Ground.heights(np.tile(ridges, (101, 1)), 0.01, x[0], -0.5)
+    gait, loads = gaits.pressed([gaits.box(0.03, 0.03)], [[0.02, 0, 0.01, 1, 0, 0, 0]], [[0, 0, -60.0]])
+    with Simulation(ground, "soil", 0.005) as sim:
+        sim.load(gait, loads)
+        sim.run(len(gait.time) // 2)
+        carried = sim.read("pressure", -20, -20, 60, 40).sum() * 0.005**2
+    assert carried == pytest.approx(60.0, rel=0.02)
