@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import bvh, trials
+from scenes import bvh, gaits, trials
 
 from desire_path.loads import walker
 from desire_path.motion import drawn, jumps
-from desire_path.rig import body
+from desire_path.rig import body, limbs, solid
 
 
 def on(motion, count, first=0):
@@ -85,3 +85,47 @@ def test_nothing_moves_over_a_cut():
     assert gait.cut.tolist() == [24]
     assert abs(np.diff(gait.com[0, :, 0]))[:23].max() < 0.3 and abs(gait.com[0, 24, 0] - gait.com[0, 23, 0]) > 6.0
     assert jumps.found(gait) is gait
+
+
+def hopping(count, rate=24.0):
+    """A box of 30 cm that hops along X, by its matrices; each held for so many frames."""
+    time = np.arange(73) / rate
+    matrix = np.tile(np.eye(4), (len(time), 1, 1))
+    phase = (time * 2.0) % 1.0
+    matrix[:, 0, 3], matrix[:, 2, 3] = 0.8 * time, 0.15 + 4.0 * 0.3 * phase * (1.0 - phase)
+    return time, matrix[np.arange(len(time)) // count * count]
+
+
+def box():
+    corner = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float) - 0.5
+    return corner * 0.3, gaits.BOX_FACES
+
+
+@pytest.mark.parametrize("count", (2, 3))
+def test_rigid_bodies_and_limbs_on_twos_move_as_what_they_are_drawn_from(count):
+    vertices, faces = box()
+    (time, ones), (_, twos) = hopping(1), hopping(count)
+    options = solid.SolidOptions("Box")
+    plain = solid.gait_from_solid(time, ones, vertices, faces, mass=20.0, frame_rate=24.0, options=options)
+    found = solid.gait_from_solid(time, twos, vertices, faces, mass=20.0, frame_rate=24.0, options=options)
+    assert not plain.warnings
+    assert found.warnings == (
+        f"Poses of Box are held for {count} frames each: prints are those of the motion between them.",
+    )
+    assert (np.diff(found.com[0, :, 0]) > 0.01).all()  # it never stops
+    assert abs(found.com - plain.com).max() < 0.03 * count and abs(twos[:, 0, 3] - ones[:, 0, 3]).max() > 0.03
+    skeleton = body.Skeleton(("arm",), np.array([-1], np.int32), np.eye(4)[None], np.array([0.3]))
+    skin = body.Skin(vertices, faces, {"arm": np.ones(len(vertices), np.float32)})
+    moved = body.Motion(time, ("arm",), twos[:, None])
+    limb = limbs.gait_from_limbs(skeleton, moved, skin, mass=20.0, frame_rate=24.0, options=options)
+    assert limb.warnings == found.warnings
+    np.testing.assert_allclose(limb.pose, found.pose, atol=1e-9)
+
+
+def test_a_body_on_twos_that_is_put_elsewhere_does_not_fly_there():
+    vertices, faces = box()
+    time, twos = hopping(2)
+    twos = twos.copy()
+    twos[36:, 1, 3] += 3.0
+    found = solid.gait_from_solid(time, twos, vertices, faces, mass=20.0, frame_rate=24.0)
+    assert set(np.round(found.pose[0, :, 1], 6)) == {0.0, 3.0}

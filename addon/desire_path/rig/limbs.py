@@ -49,13 +49,17 @@ def gait_from_limbs(
     names = [name for name in motion.bones if name in owned]
     if not names:
         raise DesirePathError(f"No mesh hangs on the bones of '{options.name}': bind one to it, or let its feet press.")
+    size = float(np.linalg.norm(np.ptp(skin.vertices, axis=0)))
+    moving, sentences = solid.between_poses(
+        options.name, np.asarray(motion.time, float), np.asarray(motion.matrix, float), size, frame_rate
+    )
     rest = {name: np.asarray(skeleton.rest, float)[skeleton.names.index(name)] for name in names}
     soles, poses, points, owner, weight, middle = [], [], [], [], [], []
     for number, name in enumerate(names):
         used, packed = np.unique(owned[name], return_inverse=True)
         corners = (np.asarray(skin.vertices, float)[used] - rest[name][:3, 3]) @ rest[name][:3, :3]
         faces = packed.reshape(-1, 3)
-        matrix = np.asarray(motion.matrix, float)[:, motion.bones.index(name)]
+        matrix = moving[:, motion.bones.index(name)]
         turn = rotation.square(matrix[:, :3, :3])
         poses.append(np.concatenate([matrix[:, :3, 3], rotation.quaternion(turn)], axis=1))
         soles.append(Sole(corners, faces))
@@ -80,5 +84,5 @@ def gait_from_limbs(
         walker_name=(options.name,),
         frame_rate=frame_rate,
         frame_start=options.frame_start,
-        warnings=tuple(options.warnings),
+        warnings=(*options.warnings, *sentences),
     ).check()

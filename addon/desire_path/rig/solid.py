@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..keywords import fields_of
-from ..motion import rotation
+from ..motion import drawn, jumps, rotation
 from ..motion.gait import HEEL, Gait, Sole
 
 if TYPE_CHECKING:
@@ -64,7 +64,9 @@ def gait_from_solid(
         raise DesirePathError(
             f"The matrices of '{name}' have shape {matrix.shape} where {(len(time), 4, 4)} is needed: give one a time."
         )
-    at, turn = matrix[:, :3, 3], rotation.square(matrix[:, :3, :3])
+    far = float(np.linalg.norm(corners, axis=1).max())
+    moving, sentences = between_poses(name, time, matrix[:, None], far, frame_rate)
+    at, turn = moving[:, 0, :3, 3], rotation.square(moving[:, 0, :3, :3])
     middle, _ = centre(corners, faces)
     points = outermost(corners)
     return Gait(
@@ -83,8 +85,20 @@ def gait_from_solid(
         walker_name=(name,),
         frame_rate=frame_rate,
         frame_start=options.frame_start,
-        warnings=tuple(options.warnings),
+        warnings=(*options.warnings, *sentences),
     ).check()
+
+
+def between_poses(
+    name: str, time: np.ndarray, matrix: np.ndarray, size: float, frame_rate: float
+) -> tuple[np.ndarray, list[str]]:
+    """(matrices (T, B, 4, 4) of the motion that poses of a body are drawn from, as on twos, and what is told of it);
+    the same and nothing where it moves in every frame. size: of the body [m]"""
+    places = matrix[..., :3, 3]
+    leaps = jumps.between(time, places.mean(axis=1), places.swapaxes(0, 1), frame_rate, time[0], size)
+    cut = [sample for a, b, _ in leaps for sample in range(a + 1, b + 1)]
+    found, lasts = drawn.moving(time, matrix, cut)
+    return found, drawn.sentences(name, lasts * frame_rate)
 
 
 def centre(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, float]:
