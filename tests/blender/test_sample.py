@@ -330,3 +330,22 @@ def test_who_follows_a_property_of_the_scene_is_recorded_as_it_moves():
         found = sample.gaits(scene, [obj], 1, 24)
         assert abs(np.asarray(found.pose) - np.asarray(wanted.pose)).max() < 1e-4, path
         assert scene.frame_current == 9 and abs(carrier.matrix_world.translation.x - 0.16) < 1e-6
+
+
+def test_a_library_that_is_not_there_is_named(folder):
+    people.biped()
+    file = folder / "people.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(file), link=True) as (_, wanted):
+        wanted.armatures = ["Walker"]
+    meshes.link(bpy.data.objects.new("Walker", wanted.armatures[0]))
+    assert record(bpy.data.objects["Walker"], 1, 12).walker_name == ("Walker",)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "shot.blend"))
+    file.rename(folder / "moved.blend")
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "shot.blend"))
+    refused(lambda: record(bpy.data.objects["Walker"], 1, 12), "library of 'Walker'", "people.blend", "relocate")
+
+
+def record(obj, first, last):
+    return sample.record(bpy.context.scene, obj, first, last)

@@ -1,6 +1,7 @@
 """private.py - a scene of our own, in which something is looked at while the user's scene stays as it is."""
 
 import math
+import os
 import re
 from contextlib import contextmanager
 
@@ -49,6 +50,16 @@ def looked_at(*objects):
     finally:
         for each in hidden:
             each.hide_viewport = True
+
+
+def check_library(obj):
+    """Refuse an object whose data are in a library that is not there, of which Blender shows an empty stand-in."""
+    library = obj.data.library if obj.data is not None else None
+    if library is not None and not os.path.exists(bpy.path.abspath(library.filepath)):
+        raise DesirePathError(
+            f"The library of '{obj.name}', {library.filepath}, is not there: relocate it in the Outliner, where its "
+            "Display Mode is Blender File."
+        )
 
 
 def evaluated(own, obj, frame):

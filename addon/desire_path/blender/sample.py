@@ -18,7 +18,7 @@ from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
 from . import axes, clock, compat, moves, physics, playback, ride, seams, soil_keys
-from .private import evaluated, looked_at, off_in_renders
+from .private import check_library, evaluated, looked_at, off_in_renders
 from .worn import hanging, owners, skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
@@ -54,6 +54,7 @@ def skeleton(armature, world, scale):
     """
     bones = list(armature.data.bones)
     if not bones:
+        check_library(armature)
         raise DesirePathError(f"'{armature.name}' has no bones: choose the armature that walks.")
     number = {bone.name: i for i, bone in enumerate(bones)}
     size = axes.sizes(world)

@@ -234,4 +234,29 @@ GERMAN = {
     "Nobody walks on a ground of '{}': add a ground and a walker, and save the file.": (
         "Auf keinem Boden von '{}' geht jemand: Boden und Läufer hinzufügen und die Datei speichern."
     ),
+    # ---- blender/soil_keys.py
+    "The keys on the soils of '{}' do not count where a frame is a pass: they are as at frame {}.": (
+        "Die Keyframes auf den Bodenarten von '{}' zählen nicht, wo ein Bild ein Durchgang ist: sie sind wie in Bild "
+        "{}."
+    ),
+    "The keys on the soil of '{}' do not count while a soil file is set: clear it.": (
+        "Die Keyframes auf der Bodenart von '{}' zählen nicht, solange eine Bodendatei gesetzt ist: sie leeren."
+    ),
+    # ---- blender/soil_presets.py
+    "'{}' cannot name a soil: use letters, digits, spaces, - and _.": (
+        "'{}' kann keine Bodenart benennen: Buchstaben, Ziffern, Leerzeichen, - und _ nehmen."
+    ),
+    "No soil is painted on '{}' yet: add one first.": "Auf '{}' ist noch keine Bodenart gemalt: erst eine hinzufügen.",
+    "No soil of your own is chosen: choose the one to remove in the menu.": (
+        "Es ist keine eigene Bodenart gewählt: im Menü die wählen, die entfernt werden soll."
+    ),
+    "There is no soil at {}: it was removed already.": "In {} ist keine Bodenart: sie wurde schon entfernt.",
+    # ---- blender/soils.py
+    "The soil is saved as {}.": "Die Bodenart ist gespeichert als {}.",
+    # ---- blender/stack.py
+    "The particles '{}' of '{}' come before '{}' among its modifiers and do not follow the prints: move them "
+    "below it.": (
+        "Die Partikel '{}' von '{}' stehen vor '{}' unter den Modifikatoren und folgen den Abdrücken nicht: sie "
+        "darunter schieben."
+    ),
 }

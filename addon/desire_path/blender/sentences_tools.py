@@ -281,6 +281,9 @@ GERMAN = {
         "gefunden, als bewegte es sich gleichmäßig."
     ),
     # ---- blender/sample.py
+    "The library of '{}', {}, is not there: relocate it in the Outliner, where its Display Mode is Blender File.": (
+        "Die Bibliothek von '{}', {}, ist nicht da: sie im Outliner umleiten, dessen Anzeigemodus Blender-Datei ist."
+    ),
     "'{}' has no bones: choose the armature that walks.": "'{}' hat keine Knochen: das Skelett wählen, das geht.",
     "Bone '{}' of '{}' has no usable transform at frame {} (NaN, infinite, or scaled to nothing): look at its "
     "keys and drivers there.": (
@@ -356,31 +359,6 @@ GERMAN = {
     ),
     "{} of the last bake is gone: bake again.": "{} des letzten Backens fehlt: noch einmal backen.",
     "{} of the last bake are gone: bake again.": "{} des letzten Backens fehlen: noch einmal backen.",
-    # ---- blender/soil_keys.py
-    "The keys on the soils of '{}' do not count where a frame is a pass: they are as at frame {}.": (
-        "Die Keyframes auf den Bodenarten von '{}' zählen nicht, wo ein Bild ein Durchgang ist: sie sind wie in Bild "
-        "{}."
-    ),
-    "The keys on the soil of '{}' do not count while a soil file is set: clear it.": (
-        "Die Keyframes auf der Bodenart von '{}' zählen nicht, solange eine Bodendatei gesetzt ist: sie leeren."
-    ),
-    # ---- blender/soil_presets.py
-    "'{}' cannot name a soil: use letters, digits, spaces, - and _.": (
-        "'{}' kann keine Bodenart benennen: Buchstaben, Ziffern, Leerzeichen, - und _ nehmen."
-    ),
-    "No soil is painted on '{}' yet: add one first.": "Auf '{}' ist noch keine Bodenart gemalt: erst eine hinzufügen.",
-    "No soil of your own is chosen: choose the one to remove in the menu.": (
-        "Es ist keine eigene Bodenart gewählt: im Menü die wählen, die entfernt werden soll."
-    ),
-    "There is no soil at {}: it was removed already.": "In {} ist keine Bodenart: sie wurde schon entfernt.",
-    # ---- blender/soils.py
-    "The soil is saved as {}.": "Die Bodenart ist gespeichert als {}.",
-    # ---- blender/stack.py
-    "The particles '{}' of '{}' come before '{}' among its modifiers and do not follow the prints: move them "
-    "below it.": (
-        "Die Partikel '{}' von '{}' stehen vor '{}' unter den Modifikatoren und folgen den Abdrücken nicht: sie "
-        "darunter schieben."
-    ),
     # ---- blender/state.py
     "This bake does not say what it was made from, as earlier versions did not: bake again.": (
         "Es ist nicht vermerkt, woraus dies gebacken wurde, wie bei früheren Versionen: noch einmal backen."
