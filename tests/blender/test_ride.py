@@ -10,7 +10,7 @@ from test_bake import scene as strip
 from test_place import hill, operator, people, scene_of
 from test_playback import shown
 
-from desire_path.blender import op_forces, posing, sample
+from desire_path.blender import op_forces, posing, ride, sample
 
 LAST = 30
 
@@ -193,3 +193,27 @@ def test_a_deck_of_two_pieces_is_trodden_on_both(folder):
     for still, riding in zip(*found):
         assert np.ptp(still) > 0.01
         assert (np.abs(riding - still) > 2e-3).mean() < 0.005
+
+
+def test_a_ship_that_follows_the_frame_of_the_scene_is_ridden_on():
+    """A driver that asks for scene.frame_current, as one with the word `frame` is."""
+    gaits = []
+    for word in ("frame", "x"):
+        ground, walker = strip()
+        ship = carrier(ground, walker, at=((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), turn=(0.0, 0.0, 0.0))
+        ship.animation_data_clear()
+        driver = ship.driver_add("location", 0).driver
+        variable = driver.variables.new()
+        variable.name, variable.targets[0].id_type = "x", "SCENE"
+        variable.targets[0].id, variable.targets[0].data_path = bpy.context.scene, "frame_current"
+        driver.expression = f"0.1 * {word}"
+        walker.parent = None  # it goes ashore, over which the ship sails
+        bpy.context.scene.frame_set(9)
+        gaits.append(record(walker))
+        path = ride.path(bpy.context.scene, ground, range(1, LAST + 1))
+        assert abs(path[-1, 0, 3] - 0.1 * (LAST - 1)) < 1e-4, (word, path[-1])
+        assert bpy.context.scene.frame_current == 9
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+    one, other = gaits
+    assert rode(one) and rode(other)
+    np.testing.assert_allclose(one.pose, other.pose, atol=1e-5)

@@ -82,10 +82,16 @@ def moves(obj):
 
 
 def scene_of(scene, obj):
-    """Where an object is seen to move as it does: a scene of its own, or `scene` itself where that leads it."""
-    if _Movers(obj).asks_scene and obj.name in scene.view_layers[0].objects:
+    """Where an object is seen to move as it does, on its ground: a scene of its own, or `scene` itself where that leads
+    either."""
+    if asks_scene(obj, obj.desire_path.ground) and obj.name in scene.view_layers[0].objects:
         return private.shown_scene(scene)
     return private.private_scene(scene, obj)
+
+
+def asks_scene(*objects):
+    """Whether properties of a scene move any of some objects; None is none."""
+    return any(_Movers(each).asks_scene for each in objects if each is not None)
 
 
 def movers(obj):

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from . import axes, moves
-from .private import evaluated, private_scene
+from .private import evaluated, private_scene, shown_scene
 
 TILT = 3.0  # ground that tilts by less keeps the walker's weight where it was [deg]
 SWAY = 0.1  # and one that is accelerated by less leaves its forces as they are [9.81 m/s^2]
@@ -69,7 +69,8 @@ class Ride:
 
 def path(scene, ground, frames):
     """The moves that a ground makes with what stands on it since the first frame (T, 4, 4); None: it never moves."""
-    with private_scene(scene) as own, on(own, ground, frames[0]) as carry:
+    where = shown_scene(scene) if moves.asks_scene(ground) else private_scene(scene)
+    with where as own, on(own, ground, frames[0]) as carry:
         if carry is None:
             return None
         for frame in frames:
