@@ -4,18 +4,27 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/os.h"
 
-#define ALIGNMENT \
-    64  // a cache line, and the widest vector; the size stands in the line before a block
+#define ALIGNMENT 64               // a cache line, and the widest vector
+#define STRETCH ((size_t)1 << 20)  // of memory that is cleared or copied at once [bytes]
+
+// What stands in the line before a block.
+typedef struct Head
+{
+    size_t bytes;   // of the block
+    size_t padded;  // with this line and the rest of the last
+    bool   held;    // memory.c has it from its file
+} Head;
 
 static atomic_size_t live;
 static atomic_size_t peak;
 static atomic_long   successes_left = -1;
 
-static size_t* size_of(void* block)
+static Head* head_of(void* block)
 {
-    return (size_t*)(void*)((char*)block - ALIGNMENT);
+    return (Head*)(void*)((char*)block - ALIGNMENT);
 }
 
 static int may_allocate(void)
@@ -35,17 +44,33 @@ static void count_in(size_t bytes)
     while (now > top && !atomic_compare_exchange_weak(&peak, &top, now)) continue;
 }
 
+// memory that held is no more in memory than a stretch
+static void fill(char* to, const char* from, size_t bytes)
+{
+    for (size_t done = 0; done < bytes; done += STRETCH) {
+        const size_t n = bytes - done < STRETCH ? bytes - done : STRETCH;
+        if (from)
+            memcpy(to + done, from + done, n);
+        else
+            memset(to + done, 0, n);
+        if (n == STRETCH) dp_memory_ease(from ? 2 * n : n);
+    }
+}
+
 void* dp_alloc(size_t count, size_t size)
 {
     if (count == 0 || size == 0 || count > (SIZE_MAX - 4 * ALIGNMENT) / size) return NULL;
     if (!may_allocate()) return NULL;
     const size_t bytes = count * size;
-    const size_t padded = (bytes + 2 * ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    char*        front = dp_os_memory(ALIGNMENT, padded);
+    size_t       padded = (bytes + 2 * ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    void*        front = NULL;
+    const bool   held = bytes >= DP_HELD_LEAST && dp_held_take(&padded, &front);
+    if (!held) front = dp_os_memory(ALIGNMENT, padded);
     if (!front) return NULL;
-    void* block = front + ALIGNMENT;
-    *size_of(block) = bytes;
-    memset(block, 0, bytes);
+    void* block = (char*)front + ALIGNMENT;
+    *head_of(block) = (Head){bytes, padded, held};
+    if (held) dp_memory_ease(bytes % STRETCH);
+    fill(block, NULL, bytes);
     count_in(bytes);
     return block;
 }
@@ -54,8 +79,8 @@ void* dp_realloc(void* block, size_t count, size_t size)
 {
     void* fresh = dp_alloc(count, size);
     if (!fresh || !block) return fresh;
-    const size_t old = *size_of(block);
-    memcpy(fresh, block, old < count * size ? old : count * size);
+    const size_t old = head_of(block)->bytes;
+    fill(fresh, block, old < count * size ? old : count * size);
     dp_free(block);
     return fresh;
 }
@@ -64,7 +89,7 @@ bool dp_make_room(void* array, size_t count, size_t size)
 {
     void* block;
     memcpy(&block, array, sizeof block);
-    if (count == 0 || (block && *size_of(block) / size >= count)) return true;
+    if (count == 0 || (block && head_of(block)->bytes / size >= count)) return true;
     void* more = count <= SIZE_MAX / 2 ? dp_realloc(block, count + count / 2, size) : NULL;
     if (!more) return false;
     memcpy(array, &more, sizeof more);
@@ -74,8 +99,12 @@ bool dp_make_room(void* array, size_t count, size_t size)
 void dp_free(void* block)
 {
     if (!block) return;
-    atomic_fetch_sub(&live, *size_of(block));
-    dp_os_memory_free((char*)block - ALIGNMENT);
+    const Head head = *head_of(block);
+    atomic_fetch_sub(&live, head.bytes);
+    if (head.held)
+        dp_held_give((char*)block - ALIGNMENT, head.padded);
+    else
+        dp_os_memory_free((char*)block - ALIGNMENT);
 }
 
 size_t dp_bytes_live(void)

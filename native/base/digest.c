@@ -2,7 +2,10 @@
 
 #include <string.h>
 
+#include "base/memory.h"
+
 #define BLOCK (DP_DIGEST_WORDS * sizeof(uint64_t))
+#define STRETCH ((size_t)1 << 20)
 
 // Every eighth word goes into the same number. Each turn can be undone, so one word that differs is
 // never lost; several have to meet by chance.
@@ -21,7 +24,12 @@ void dp_digest(const void* bytes, size_t count, uint64_t words[DP_DIGEST_WORDS])
     const unsigned char* at = bytes;
     uint64_t             sum[DP_DIGEST_WORDS];
     for (int k = 0; k < DP_DIGEST_WORDS; ++k) sum[k] = (uint64_t)k + 1;
-    for (; count >= BLOCK; at += BLOCK, count -= BLOCK) take_in(sum, at);
+    while (count >= BLOCK) {
+        const size_t stretch = count < STRETCH ? count / BLOCK * BLOCK : STRETCH;
+        for (size_t k = 0; k < stretch; k += BLOCK) take_in(sum, at + k);
+        at += stretch, count -= stretch;
+        dp_memory_ease(stretch);
+    }
     unsigned char last[BLOCK] = {0};
     if (count > 0) memcpy(last, at, count);
     take_in(sum, last);

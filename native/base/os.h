@@ -1,5 +1,6 @@
 // base/os.h - what differs from one system to the next: threads, files, processors, memory. All else of the core asks
-// here; os_posix.c and os_files_posix.c answer on Linux and macOS, os_windows.c and os_files_windows.c on Windows.
+// here; os_posix.c, os_files_posix.c and os_pages_posix.c answer on Linux and macOS, the files ending in _windows.c on
+// Windows.
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -76,6 +77,9 @@ int dp_os_processors(void);
 void* dp_os_memory(size_t alignment, size_t bytes);
 void  dp_os_memory_free(void* memory);
 
+// Memory of the machine that this process takes now, files it has mapped too [bytes]; 0 where nobody tells.
+size_t dp_os_resident(void);
+
 // ---- files ----------------------------------------------------------------------------------------
 //
 // Paths are UTF-8 on Windows, of any length there, and the system's own bytes elsewhere.
@@ -112,3 +116,21 @@ DpStatus dp_file_replace(const char* from, const char* to);
 
 // Remove a file, if it is there.
 void dp_file_remove(const char* path);
+
+// ---- pages of a file ------------------------------------------------------------------------------
+
+// A new empty file to map, which nobody else finds and which is gone when it is closed or the process ends.
+// DP_DISK_FULL, DP_CANNOT_OPEN.
+DpStatus dp_scratch_create(const char* path, DpFile* file);
+
+// Let it have so many bytes, a multiple of 64 KiB; there is room on the disk for all of them. DP_DISK_FULL,
+// DP_CANNOT_WRITE: it is as it was.
+DpStatus dp_scratch_grow(DpFile file, int64_t bytes);
+
+// Some of its bytes as memory, from a multiple of 64 KiB on; NULL when there is no room for them among addresses.
+void* dp_pages_map(DpFile file, int64_t offset, size_t bytes);
+void  dp_pages_unmap(void* at, size_t bytes);
+
+// All that was mapped leaves memory: who touches it again, now or in another thread, finds it as it was. False
+// where the system does not let it.
+bool dp_pages_leave(DpFile file, int64_t offset, void* at, size_t bytes);

@@ -5,12 +5,14 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
+#include "base/os_inside_windows.h"
+
 #define MAX_BYTES ((size_t)1 << 30)  // of one call
 #define LONGEST_PATH 32767           // of what the system takes
 #define TRIES 50     // at a place that somebody has open, a search or a scanner for a moment
 #define PATIENCE 20  // between two of them [ms]
 
-static DpStatus status_of(DWORD error, DpStatus otherwise)
+DpStatus dp_status_of(unsigned long error, DpStatus otherwise)
 {
     return error == ERROR_DISK_FULL || error == ERROR_HANDLE_DISK_FULL ||
                    error == ERROR_DISK_QUOTA_EXCEEDED
@@ -58,7 +60,8 @@ long dp_os_process(void)
     return (long)GetCurrentProcessId();
 }
 
-static DpStatus open_as(const char* path, DWORD access, DWORD how, DWORD flags, DpFile* file)
+DpStatus dp_open_as(const char* path, unsigned long access, unsigned long how, unsigned long flags,
+                    DpFile* file)
 {
     *file = DP_NO_FILE;
     WidePath name;
@@ -66,14 +69,14 @@ static DpStatus open_as(const char* path, DWORD access, DWORD how, DWORD flags, 
     if (how == CREATE_NEW) DeleteFileW(name.text);
     const DWORD shared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     HANDLE      handle = CreateFileW(name.text, access, shared, NULL, how, flags, NULL);
-    if (handle == INVALID_HANDLE_VALUE) return status_of(GetLastError(), DP_CANNOT_OPEN);
+    if (handle == INVALID_HANDLE_VALUE) return dp_status_of(GetLastError(), DP_CANNOT_OPEN);
     *file = (DpFile)handle;
     return DP_OK;
 }
 
 DpStatus dp_file_create(const char* path, DpFile* file)
 {
-    return open_as(path, GENERIC_WRITE, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, file);
+    return dp_open_as(path, GENERIC_WRITE, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, file);
 }
 
 static DpStatus refuse(DpFile* file, DpStatus status)
@@ -85,8 +88,8 @@ static DpStatus refuse(DpFile* file, DpStatus status)
 
 DpStatus dp_file_append(const char* path, DpFile* file)
 {
-    const DpStatus status = open_as(path, FILE_APPEND_DATA | FILE_READ_ATTRIBUTES, OPEN_EXISTING,
-                                    FILE_FLAG_OPEN_REPARSE_POINT, file);
+    const DpStatus status = dp_open_as(path, FILE_APPEND_DATA | FILE_READ_ATTRIBUTES, OPEN_EXISTING,
+                                       FILE_FLAG_OPEN_REPARSE_POINT, file);
     if (status != DP_OK) return DP_CANNOT_OPEN;
     BY_HANDLE_FILE_INFORMATION about;
     const bool                 link = !GetFileInformationByHandle((HANDLE)*file, &about) ||
@@ -98,7 +101,7 @@ DpStatus dp_file_open(const char* path, DpFile* file, int64_t* size)
 {
     // with the flag a folder opens, too, and is told apart from what is not there
     const DpStatus status =
-        open_as(path, GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, file);
+        dp_open_as(path, GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, file);
     if (status != DP_OK) return DP_CANNOT_OPEN;
     BY_HANDLE_FILE_INFORMATION about;
     LARGE_INTEGER              bytes;
@@ -117,7 +120,7 @@ DpStatus dp_file_write(DpFile file, const void* data, size_t size)
     while (size > 0) {
         DWORD done = 0;
         if (!WriteFile((HANDLE)file, at, (DWORD)(size < MAX_BYTES ? size : MAX_BYTES), &done, NULL))
-            return status_of(GetLastError(), DP_CANNOT_WRITE);
+            return dp_status_of(GetLastError(), DP_CANNOT_WRITE);
         if (done == 0) return DP_CANNOT_WRITE;
         at += done;
         size -= done;
@@ -148,7 +151,7 @@ DpStatus dp_file_close(DpFile file)
 {
     return file == DP_NO_FILE || CloseHandle((HANDLE)file)
                ? DP_OK
-               : status_of(GetLastError(), DP_CANNOT_WRITE);
+               : dp_status_of(GetLastError(), DP_CANNOT_WRITE);
 }
 
 DpStatus dp_file_replace(const char* from, const char* to)
@@ -164,7 +167,7 @@ DpStatus dp_file_replace(const char* from, const char* to)
         if (held && !folder && t < TRIES)
             Sleep(PATIENCE);
         else
-            status = status_of(error, DP_CANNOT_WRITE);
+            status = dp_status_of(error, DP_CANNOT_WRITE);
     }
     return status;
 }

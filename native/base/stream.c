@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/assert.h"
 #include "base/digest.h"
+#include "base/memory.h"
 
 #define NAME 4
 #define HEAD (NAME + 4 + 8 + 8)  // of a chunk: name, version, size, checksum
@@ -56,6 +57,7 @@ static unsigned char* extend(DpStateWriter* writer, size_t count)
         return NULL;
     }
     writer->size += count;
+    dp_memory_ease(count);
     return writer->bytes + writer->size - count;
 }
 
@@ -219,6 +221,7 @@ static const unsigned char* take(DpStateReader* reader, size_t count)
     dp_read_check(reader, reader->open && count <= reader->end - reader->at);
     if (reader->status != DP_OK) return NULL;
     reader->at += count;
+    dp_memory_ease(count);
     return reader->bytes + reader->at - count;
 }
 

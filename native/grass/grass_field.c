@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "grass/grass_inside.h"
 
 #define AT_REST 0.002f  // nearer to where it stays than this, grass is there
@@ -31,7 +32,7 @@ DpStatus dp_grass_create(DpGrass** grass, const DpPlants* plants, DpGrid grid)
 void dp_grass_destroy(DpGrass* grass)
 {
     if (!grass) return;
-    for (int t = 0; t < grass->tiles; ++t) dp_free(grass->tile[t]);
+    for (int t = 0; t < grass->tiles; ++t) dp_grass_tile_destroy(grass->tile[t]);
     for (int k = 0; k < grass->print_room; ++k) dp_grass_print_drop(&grass->print[k]);
     dp_free(grass->tile), dp_free(grass->print), dp_free(grass);
 }
@@ -57,6 +58,7 @@ static void rise_tile(const DpGrass* grass, GrassTile* tile, double dt)
     const bool       due = (tile->waited + dt) * (double)tile->healing > DUE;
     const DpCellRect at = due ? tile->moves : tile->brisk, none = {0, 0, 0, 0};
     tile->waited += dt;
+    if (!dp_cells_empty(at)) dp_memory_ease(DP_EASE_PAGE);
     tile->brisk = none;
     if (due) tile->moves = none;
     float rate = 0.0f, keep = 1.0f, heal = 0.0f, kept = 1.0f;  // neighbours mostly are alike
@@ -190,6 +192,7 @@ void dp_grass_read(const DpGrass* grass, long i0, long j0, int nx, int ny, float
         const float* const from[3] = {tile->lean[0], tile->lean[1], tile->crushed};
         const long         ti = tile->tx * DP_TILE, tj = tile->ty * DP_TILE;
         const long a = ti > i0 ? ti : i0, b = ti + DP_TILE < i0 + nx ? ti + DP_TILE : i0 + nx;
+        if (a < b && tj < j0 + ny && tj + DP_TILE > j0) dp_memory_ease(DP_EASE_PAGE);
         for (long j = tj > j0 ? tj : j0; j < tj + DP_TILE && j < j0 + ny && a < b; ++j)
             for (int d = 0; d < 3; ++d)
                 if (out[d])

@@ -6,23 +6,24 @@
 
 #define CELLS (DP_TILE * DP_TILE)
 
+// A tile, and of its cells where they lie (CELLS each): these may have left memory (base/memory.h), it itself does not.
 typedef struct GrassTile
 {
     long       tx, ty;
     bool       changed;
     DpCellRect moves;  // what is not at rest
     DpCellRect brisk;  // of it what is held or swings, or may: the others wait until they are due
-    float      lean[2][CELLS], crushed[CELLS];
-    float      deepest[CELLS];  // crushed when it was let go
-    float      height[CELLS];   // of the stem, 0 = nothing grows [m]
-    float      rate[CELLS];     // at which it swings up [1/s]
-    float      heal[CELLS];     // at which it rises while its crushed is above `limp` [1/s]
-    float      limp[CELLS];
-    float      healing;       // largest of heal [1/s]
-    double     waited;        // since slow stems rose [s]
-    float      stays[CELLS];  // share of stems that is broken
-    int32_t    held[CELLS];   // the step in which something held it last
-    int32_t    under[CELLS];  // the step in which a sole lay on it last
+    float *    lean[2], *crushed;
+    float*     deepest;  // crushed when it was let go
+    float*     height;   // of the stem, 0 = nothing grows [m]
+    float*     rate;     // at which it swings up [1/s]
+    float*     heal;     // at which it rises while its crushed is above `limp` [1/s]
+    float*     limp;
+    float      healing;  // largest of heal [1/s]
+    double     waited;   // since slow stems rose [s]
+    float*     stays;    // share of stems that is broken
+    int32_t*   held;     // the step in which something held it last
+    int32_t*   under;    // the step in which a sole lay on it last
 } GrassTile;
 
 // A window of the grass's cells around a sole; grids have a border of one cell.
@@ -50,6 +51,9 @@ struct DpGrass
 
 // ---- grass_tiles.c
 
+// a tile on which nothing grows yet, in no list; NULL without memory
+GrassTile* dp_grass_tile_create(long tx, long ty);
+void       dp_grass_tile_destroy(GrassTile* tile);  // NULL is fine
 // a tile; NULL if nobody touched it
 GrassTile* dp_grass_find(const DpGrass* grass, long tx, long ty);
 // a tile, created if nobody touched it yet; NULL without memory

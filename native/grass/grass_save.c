@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "base/assert.h"
 #include "grass/grass_inside.h"
 
@@ -49,6 +50,7 @@ static void write_cells(DpStateWriter* writer, DpCellRect rect)
 static void write_tile(DpStateWriter* writer, const DpGrass* grass, GrassTile* tile)
 {
     float under[CELLS];  // does a sole lie on it, as of this step?
+    dp_memory_ease((GRIDS + 2) * CELLS * sizeof(float));
     dp_write_i64(writer, tile->ty), dp_write_i64(writer, tile->tx);
     dp_write_u8(writer, tile->changed);
     write_cells(writer, tile->moves), write_cells(writer, tile->brisk);
@@ -106,7 +108,7 @@ static void read_tile(DpStateReader* reader, GrassTile* tile, int32_t step)
 void dp_grass_state_destroy(DpGrassState* state)
 {
     if (!state) return;
-    for (int t = 0; t < state->tiles; ++t) dp_free(state->tile[t]);
+    for (int t = 0; t < state->tiles; ++t) dp_grass_tile_destroy(state->tile[t]);
     dp_free(state->tile), dp_free(state);
 }
 
@@ -118,7 +120,7 @@ static bool read_tiles(DpStateReader* reader, DpGrassState* state)
     state->tile = dp_alloc((size_t)tiles, sizeof *state->tile);
     if (!state->tile) return false;
     for (int t = 0; t < tiles && reader->status == DP_OK; ++t) {
-        GrassTile* tile = dp_alloc(1, sizeof *tile);
+        GrassTile* tile = dp_grass_tile_create(0, 0);
         if (!tile) return false;
         state->tile[state->tiles++] = tile;
         read_tile(reader, tile, state->step);
@@ -153,7 +155,7 @@ DpStatus dp_grass_load(const DpGrass* grass, DpStateReader* reader, DpGrassState
 void dp_grass_restore(DpGrass* grass, DpGrassState* state)
 {
     DP_ASSERT(state->grass == grass);
-    for (int t = 0; t < grass->tiles; ++t) dp_free(grass->tile[t]);
+    for (int t = 0; t < grass->tiles; ++t) dp_grass_tile_destroy(grass->tile[t]);
     dp_free(grass->tile);
     grass->tile = state->tile, grass->tiles = state->tiles;
     grass->step = state->step, grass->prints = 0;

@@ -2,7 +2,35 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "grass/grass_inside.h"
+
+#define GRIDS 11  // of a tile
+
+GrassTile* dp_grass_tile_create(long tx, long ty)
+{
+    GrassTile* tile = dp_alloc(1, sizeof *tile);
+    float*     cell = dp_alloc(GRIDS * CELLS, sizeof *cell);
+    if (!tile || !cell) {
+        dp_free(tile), dp_free(cell);
+        return NULL;
+    }
+    *tile = (GrassTile){.tx = tx, .ty = ty, .lean = {cell, cell + CELLS}};
+    float** const grid[] = {&tile->crushed, &tile->deepest, &tile->height, &tile->rate,
+                            &tile->heal,    &tile->limp,    &tile->stays};
+    cell += 2 * CELLS;
+    for (size_t g = 0; g < sizeof grid / sizeof *grid; ++g, cell += CELLS) *grid[g] = cell;
+    tile->held = (int32_t*)(void*)cell;
+    tile->under = tile->held + CELLS;
+    return tile;
+}
+
+void dp_grass_tile_destroy(GrassTile* tile)
+{
+    if (!tile) return;
+    dp_free(tile->lean[0]);
+    dp_free(tile);
+}
 
 // where a tile is in the list, or where it belongs
 static int place_of(const DpGrass* grass, long tx, long ty)
@@ -23,6 +51,7 @@ GrassTile* dp_grass_find(const DpGrass* grass, long tx, long ty)
 {
     const int  at = place_of(grass, tx, ty);
     const bool there = at < grass->tiles && grass->tile[at]->tx == tx && grass->tile[at]->ty == ty;
+    if (there) dp_memory_ease(GRIDS * CELLS * sizeof(float));
     return there ? grass->tile[at] : NULL;
 }
 
@@ -48,9 +77,8 @@ GrassTile* dp_grass_touch(DpGrass* grass, long tx, long ty)
     GrassTile* tile = dp_grass_find(grass, tx, ty);
     if (tile) return tile;
     if (!dp_make_room(&grass->tile, (size_t)grass->tiles + 1, sizeof *grass->tile)) return NULL;
-    tile = dp_alloc(1, sizeof *tile);
+    tile = dp_grass_tile_create(tx, ty);
     if (!tile) return NULL;
-    tile->tx = tx, tile->ty = ty;
     dp_grass_grow(grass, tile, 0, DP_TILE, 0, DP_TILE, true);
     const int at = place_of(grass, tx, ty);
     memmove(grass->tile + at + 1, grass->tile + at,

@@ -8,6 +8,8 @@
 // written as <path>.<process>-<number>.part beside its target and renamed when whole; what a killed
 // process leaves behind ends in .part.
 #pragma once
+#include <stdbool.h>
+
 #include "base/status.h"
 #include "base/types.h"
 
@@ -80,6 +82,18 @@ typedef struct DpMapChannel
 // Write named float channels as one flat scan-line file, highest row first.
 DpStatus dp_maps_write(const char* path, int nx, int ny, const DpMapChannel* channels,
                        int channel_count, const DpNote* notes, int note_count);
+
+// The same of planes that hold DP_TILE rows at a time: before rows are written fill(context, j) has them hold rows j to
+// j + DP_TILE - 1, from the highest down; of those below 0 nobody asks. Where it returns false: DP_CANNOT_WRITE, and the
+// file is as it was.
+typedef struct DpMapRows
+{
+    bool (*fill)(void* context, int j);
+    void* context;
+} DpMapRows;
+DpStatus dp_maps_write_rows(const char* path, int nx, int ny, const DpMapChannel* channels,
+                            int channel_count, const DpNote* notes, int note_count,
+                            const DpMapRows* rows);
 
 // A file read whole. Row 0 = lowest y.
 typedef struct DpMapFile

@@ -135,23 +135,34 @@ DpStatus dp_exr_begin(exr_context_t* context, DpBytes* out, int nx, int ny, bool
 
 // ---- named channels, scan line by scan line -----------------------------------------------------
 
+// Planes as they are written: from the highest row down, of which row `low` is the lowest they hold.
+typedef struct Planes
+{
+    int                 nx, ny, low;
+    const DpMapChannel* channels;
+    int                 channel_count;
+    const DpMapRows*    rows;  // NULL: they hold all
+} Planes;
+
 // one chunk of 16 lines; image row 0 is the grid's last row
 static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t* pipe, bool first,
-                                int row, int nx, int ny, const DpMapChannel* channels,
-                                int channel_count)
+                                int row, const Planes* planes)
 {
-    exr_chunk_info_t chunk;
-    exr_result_t     done = exr_write_scanline_chunk_info(context, 0, row, &chunk);
+    const DpMapChannel* channels = planes->channels;
+    const int           nx = planes->nx, in_plane = planes->ny - 1 - row - planes->low;
+    exr_chunk_info_t    chunk;
+    exr_result_t        done = exr_write_scanline_chunk_info(context, 0, row, &chunk);
     if (!done)
         done = first ? exr_encoding_initialize(context, 0, &chunk, pipe)
                      : exr_encoding_update(context, 0, &chunk, pipe);
     if (done) return done;
     for (int c = 0; c < pipe->channel_count; ++c) {
         exr_coding_channel_info_t* to = &pipe->channels[c];
-        for (int k = 0; k < channel_count; ++k)  // the file keeps its channels sorted by name
+        for (int k = 0; k < planes->channel_count;
+             ++k)  // the file keeps its channels sorted by name
             if (strcmp(channels[k].name, to->channel_name) == 0)
                 to->encode_from_ptr =
-                    (const uint8_t*)(channels[k].value + (size_t)(ny - 1 - row) * (size_t)nx);
+                    (const uint8_t*)(channels[k].value + (size_t)in_plane * (size_t)nx);
         to->user_data_type = EXR_PIXEL_FLOAT;
         to->user_bytes_per_element = 4;
         to->user_pixel_stride = 4;
@@ -161,15 +172,22 @@ static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t* pi
     return done ? done : exr_encoding_run(context, 0, pipe);
 }
 
-static DpStatus pack_maps(DpBytes* out, int nx, int ny, const DpMapChannel* channels,
-                          int channel_count, const DpNote* notes, int note_count)
+// the planes hold a row and those of its chunk
+static bool has_rows(Planes* planes, int row)
 {
-    const char** names = dp_alloc((size_t)channel_count, sizeof *names);
+    if (!planes->rows || row % DP_TILE != 0) return true;
+    planes->low = planes->ny - DP_TILE - row;
+    return planes->rows->fill(planes->rows->context, planes->low);
+}
+
+static DpStatus pack_maps(DpBytes* out, Planes* planes, const DpNote* notes, int note_count)
+{
+    const char** names = dp_alloc((size_t)planes->channel_count, sizeof *names);
     if (!names) return DP_NO_MEMORY;
-    for (int k = 0; k < channel_count; ++k) names[k] = channels[k].name;
+    for (int k = 0; k < planes->channel_count; ++k) names[k] = planes->channels[k].name;
     exr_context_t context;
-    DpStatus      status =
-        dp_exr_begin(&context, out, nx, ny, false, names, channel_count, notes, note_count, NULL);
+    DpStatus      status = dp_exr_begin(&context, out, planes->nx, planes->ny, false, names,
+                                        planes->channel_count, notes, note_count, NULL);
     dp_free(names);
     if (status != DP_OK) return status;
 
@@ -177,21 +195,31 @@ static DpStatus pack_maps(DpBytes* out, int nx, int ny, const DpMapChannel* chan
     int32_t               lines = 16;
     exr_get_scanlines_per_chunk(context, 0, &lines);
     exr_result_t done = EXR_ERR_SUCCESS;
-    for (int row = 0; !done && row < ny; row += lines)
-        done = write_chunk(context, &pipe, row == 0, row, nx, ny, channels, channel_count);
+    for (int row = 0; !done && status == DP_OK && row < planes->ny; row += lines) {
+        if (!has_rows(planes, row)) status = DP_CANNOT_WRITE;
+        if (status == DP_OK) done = write_chunk(context, &pipe, row == 0, row, planes);
+    }
     exr_encoding_destroy(context, &pipe);
-    if (exr_finish(&context) != EXR_ERR_SUCCESS || done) status = DP_NO_MEMORY;
+    if (exr_finish(&context) != EXR_ERR_SUCCESS || done) status = status ? status : DP_NO_MEMORY;
     return status;
 }
 
 DpStatus dp_maps_write(const char* path, int nx, int ny, const DpMapChannel* channels,
                        int channel_count, const DpNote* notes, int note_count)
 {
+    return dp_maps_write_rows(path, nx, ny, channels, channel_count, notes, note_count, NULL);
+}
+
+DpStatus dp_maps_write_rows(const char* path, int nx, int ny, const DpMapChannel* channels,
+                            int channel_count, const DpNote* notes, int note_count,
+                            const DpMapRows* rows)
+{
     if (!path || !*path || channel_count < 1 || !channels) return DP_BAD_ARGUMENT;
     for (int k = 0; k < channel_count; ++k)
         if (!channels[k].name || !channels[k].value) return DP_BAD_ARGUMENT;
+    Planes   planes = {nx, ny, 0, channels, channel_count, rows};
     DpBytes  out = {0};
-    DpStatus status = pack_maps(&out, nx, ny, channels, channel_count, notes, note_count);
+    DpStatus status = pack_maps(&out, &planes, notes, note_count);
     if (status == DP_OK) status = dp_file_save(path, out.at, out.size);
     dp_bytes_free(&out);
     return status;

@@ -5,8 +5,11 @@
 
 #include "base/alloc.h"
 #include "base/digest.h"
+#include "base/memory.h"
 #include "base/os.h"
 #include "maps/maps_exr.h"
+
+#define STRETCH ((size_t)1 << 20)  // of a file, written at once [bytes]
 
 DpStatus dp_bytes_put(DpBytes* bytes, size_t offset, const void* from, size_t count)
 {
@@ -36,7 +39,11 @@ DpStatus dp_file_save(const char* path, const void* data, size_t size)
     DpFile   file;
     DpStatus status = dp_file_create(part, &file);
     if (status == DP_OK) {
-        status = dp_file_write(file, data, size);
+        for (size_t done = 0; status == DP_OK && done < size; done += STRETCH) {
+            const size_t left = size - done;
+            status = dp_file_write(file, (const char*)data + done, left < STRETCH ? left : STRETCH);
+            dp_memory_ease(STRETCH);
+        }
         const DpStatus closed = dp_file_close(file);
         if (status == DP_OK) status = closed;
         if (status == DP_OK) status = dp_file_replace(part, path);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "maps/maps_exr.h"
 
 #define WORKERS 64
@@ -130,7 +131,8 @@ DpStatus dp_frames_set_tile(DpFrames* frames, int tx, int ty, const float* value
     if (!frames || !value || tx < 0 || ty < 0 || tx >= frames->tiles_x || ty >= frames->tiles_y ||
         worker < 0 || worker >= WORKERS)
         return DP_BAD_ARGUMENT;
-    Tile           fresh = {NULL, 0};
+    Tile fresh = {NULL, 0};
+    dp_memory_ease(tile_bytes(frames));
     const DpStatus status = pack(frames, &frames->scratch[worker], value, &fresh);
     if (status != DP_OK) return status;
     Tile* tile = &frames->tile[ty * frames->tiles_x + tx];
@@ -154,6 +156,7 @@ DpStatus dp_frames_write(DpFrames* frames, const char* path, double time)
         for (int tx = 0; !done && tx < frames->tiles_x; ++tx) {
             const Tile* tile = &frames->tile[(frames->tiles_y - 1 - row) * frames->tiles_x + tx];
             if (!tile->packed) tile = &frames->zero;
+            dp_memory_ease(2 * tile->size);
             done = exr_write_tile_chunk(context, 0, tx, row, 0, 0, tile->packed, tile->size);
         }
     }

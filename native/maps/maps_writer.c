@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "base/os.h"
 #include "base/parallel.h"
 #include "maps/maps.h"
@@ -59,6 +60,7 @@ float* dp_tiles_add(DpTiles* tiles, int tx, int ty)
     if (!dp_make_room(&tiles->tile, 2 * count, sizeof *tiles->tile) ||
         !dp_make_room(&tiles->value, count * tiles->size, sizeof *tiles->value))
         return NULL;
+    dp_memory_ease(tiles->size * sizeof *tiles->value);
     tiles->tile[2 * tiles->count] = tx;
     tiles->tile[2 * tiles->count + 1] = ty;
     return tiles->value + tiles->size * (size_t)tiles->count++;

@@ -4,6 +4,7 @@
 // far as runners and heavy seeds come, four times its roots' radius: a lane grows again from its
 // borders, too. A share w comes from seeds that lie in the soil or fly in, wherever it is bare.
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "plants/plant_inside.h"
 
 double dp_plant_regrow(const DpPlantKind* kind, double alpha, double seconds)
@@ -49,6 +50,7 @@ static float* cover_before(const DpPlants* plants)
         const PlantStand* stand = &plants->stand[s];
         for (int slot = 0; slot < stand->count; ++slot) {
             const PlantBlock* block = &stand->block[slot / DP_LANES];
+            dp_memory_ease(sizeof *block);
             cover[at + (size_t)slot] = dp_plant_cover_around(
                 plants, block->root[0][slot % DP_LANES], block->root[1][slot % DP_LANES]);
         }
@@ -83,8 +85,10 @@ DpStatus dp_plants_advance_time(DpPlants* plants, double seconds)
     ++plants->advances;
     for (int s = 0; s < plants->stands; ++s) {
         PlantStand* stand = &plants->stand[s];
-        for (int b = 0; b < stand->blocks; ++b, here += DP_LANES)
+        for (int b = 0; b < stand->blocks; ++b, here += DP_LANES) {
+            dp_memory_ease(DP_EASE_PAGE);
             rest_block(plants, stand, &stand->block[b], here, seconds);
+        }
     }
     plants->now += seconds;
     dp_free(cover);

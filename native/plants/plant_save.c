@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "base/assert.h"
 #include "base/digest.h"
 #include "base/stream.h"
@@ -105,6 +106,7 @@ static void write_block(DpStateWriter* writer, const PlantStand* stand, int b)
 {
     const PlantBlock* block = &stand->block[b];
     uint8_t           touched = 0;
+    dp_memory_ease(DP_EASE_PAGE);
     for (int l = 0; l < DP_LANES; ++l) touched |= (uint8_t)(block->touched_lane[l] << l);
     dp_write_i64(writer, b);
     dp_write_u8(writer,

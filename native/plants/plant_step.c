@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "plants/plant_inside.h"
 
@@ -93,6 +94,7 @@ static int call_up(DpPlants* plants, const PlantPush* push, int count, double dt
                               box[3] > y0 && dp_plant_meets_any(box, push, count, (double)span);
             if (!near && !stand->up[b]) continue;
             PlantBlock* block = &stand->block[b];
+            dp_memory_ease(DP_EASE_PAGE);
             if (!near)
                 block->touched = false, memset(block->touched_lane, 0, sizeof block->touched_lane);
             else

@@ -1,6 +1,7 @@
 #include "python/buffers.h"
 
 #include "base/alloc.h"
+#include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -73,7 +74,9 @@ int dp_buffers_finite(const double* value, Py_ssize_t count, const char* name)
 
 PyObject* dp_py_result(DpStatus status, const char* what)
 {
-    PyObject* kind = PyExc_ValueError;
+    PyObject*      kind = PyExc_ValueError;
+    const DpStatus trouble = status == DP_NO_MEMORY ? dp_memory_trouble() : DP_OK;
+    if (trouble != DP_OK) status = trouble;  // the disk has no room for what shall leave memory
     switch (status) {
         case DP_OK:
             Py_RETURN_NONE;

@@ -82,16 +82,41 @@ static int fill_channels(PyObject* names, PyObject* planes, DpBuffers* buffers,
     return 0;
 }
 
+static bool call(void* context, int j)
+{
+    PyObject* found = PyObject_CallFunction((PyObject*)context, "i", j);
+    Py_XDECREF(found);
+    return found != NULL;
+}
+
+// Files of planes that hold some rows at a time, which a function of Python's fills; NULL: they hold all.
+static DpStatus write_rows(const char* file, const DpShape* shape, PyObject* fill, int ny,
+                           const DpMapChannel* channel, int count, const DpNote* note, int notes)
+{
+    const DpMapRows rows = {call, fill};
+    DpStatus        status;
+    const int       nx = (int)shape->n[1];
+    if (fill) {
+        if (shape->n[0] != DP_TILE) return DP_BAD_ARGUMENT;
+        return dp_maps_write_rows(file, nx, ny, channel, count, note, notes, &rows);
+    }
+    Py_BEGIN_ALLOW_THREADS
+    status = dp_maps_write(file, nx, (int)shape->n[0], channel, count, note, notes);
+    Py_END_ALLOW_THREADS
+    return status;
+}
+
 static PyObject* maps_write(PyObject* module, PyObject* arguments)
 {
     (void)module;
-    PyObject *   path = NULL, *names, *planes, *notes, *done = NULL;
+    PyObject *   path = NULL, *names, *planes, *notes, *fill = NULL, *done = NULL;
+    int          ny = 0;
     DpNote*      note = NULL;
     DpBuffers    buffers = {.count = 0};
     DpMapChannel channel[DP_MAX_BUFFERS];
     DpShape      shape = {2, {-1, -1}};
-    if (!PyArg_ParseTuple(arguments, "O&OOO:maps_write", PyUnicode_FSConverter, &path, &names,
-                          &planes, &notes))
+    if (!PyArg_ParseTuple(arguments, "O&OOO|Oi:maps_write", PyUnicode_FSConverter, &path, &names,
+                          &planes, &notes, &fill, &ny))
         return NULL;
     names = items_of(names, "names");
     planes = names ? items_of(planes, "planes") : NULL;
@@ -108,13 +133,9 @@ static PyObject* maps_write(PyObject* module, PyObject* arguments)
         dp_py_result(DP_BAD_ARGUMENT, "writing maps");
         goto leave;
     }
-    const char* file = PyBytes_AsString(path);
-    DpStatus    status;
-    Py_BEGIN_ALLOW_THREADS
-    status = dp_maps_write(file, (int)shape.n[1], (int)shape.n[0], channel, (int)count, note,
-                           (int)note_count);
-    Py_END_ALLOW_THREADS
-    done = dp_py_result(status, "writing maps");
+    const DpStatus status = write_rows(PyBytes_AsString(path), &shape, fill, ny, channel,
+                                       (int)count, note, (int)note_count);
+    if (!PyErr_Occurred()) done = dp_py_result(status, "writing maps");
 leave:
     dp_buffers_close(&buffers);
     dp_free(note);

@@ -5,6 +5,7 @@
 // ground the next step's soil is worked out while the plants still move: sim_speculate.c.
 #include <math.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "sim/sim_inside.h"
 
@@ -115,6 +116,7 @@ DpStatus dp_sim_run(DpSim* sim, int sample)
             status = dp_stage_step(sim, sim->next, sim->next + 1 < sample);
         if (status != DP_OK) return status;
         dp_motion_forget(sim->motion, ++sim->next);
+        dp_memory_ease(DP_EASE_NOW);
     }
     return DP_OK;
 }

@@ -62,7 +62,7 @@ DpStatus dp_terrain_create(DpTerrain** terrain, const DpTerrainOptions* options,
 void dp_terrain_destroy(DpTerrain* terrain)
 {
     if (!terrain) return;
-    for (size_t t = 0; t < terrain->tiles; ++t) dp_free(terrain->sorted[t]);
+    for (size_t t = 0; t < terrain->tiles; ++t) dp_tile_destroy(terrain->sorted[t]);
     dp_free(terrain->sorted);
     dp_free(terrain->marked);
     dp_free(terrain->slot);
@@ -121,7 +121,7 @@ void dp_terrain_totals(const DpTerrain* terrain, double* heaped, double* pressed
     double       heap = 0.0, compression = 0.0;
     float        highest = 0.0f;
     for (size_t t = 0; t < terrain->tiles; ++t) {
-        const Tile* tile = terrain->sorted[t];
+        const Tile* tile = tile_at(terrain, t);
         for (int n = 0; n < TILE_CELLS; ++n) {
             heap += (double)tile->heap[n];
             compression += (double)tile->compression[n];

@@ -57,7 +57,7 @@ double dp_terrain_coat_volume(const DpTerrain* terrain, int coat)
 {
     double sum = 0.0;
     for (size_t t = 0; t < terrain->tiles; ++t) {
-        const float* lies = tile_coats(terrain, terrain->sorted[t]) + (size_t)coat * TILE_CELLS;
+        const float* lies = tile_coats(terrain, tile_at(terrain, t)) + (size_t)coat * TILE_CELLS;
         for (int n = 0; n < TILE_CELLS; ++n) sum += (double)lies[n];
     }
     return sum * terrain->grid.cell * terrain->grid.cell;

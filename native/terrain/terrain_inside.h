@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <stdatomic.h>
 
+#include "base/memory.h"
 #include "terrain/terrain.h"
 
 #define TILE_CELLS (DP_TILE * DP_TILE)
@@ -94,20 +95,22 @@ enum
 {
     DP_TERRAIN_FIELDS(KEPT_PLACE, DP_FIELD_NONE) KEPT_FIELDS
 };
+#define TILE_BYTES ((KEPT_FIELDS + 2) * TILE_CELLS * sizeof(float))  // of a tile's cells, about
 
-#define TILE_GRID(ID, name, number, unit, equation, meaning) float name[TILE_CELLS];
+// A tile, and of its cells where they lie: these may have left memory (base/memory.h), it itself does not.
+#define TILE_GRID(ID, name, number, unit, equation, meaning) float* name;
 typedef struct Tile
 {
-    float base_height[TILE_CELLS];  // over the datum, NaN = no ground [m]
+    float* base_height;  // over the datum, NaN = no ground [m] (TILE_CELLS)
     DP_TERRAIN_FIELDS(TILE_GRID, DP_FIELD_NONE)
-    uint8_t    kind[TILE_CELLS];
+    uint8_t*   kind;
     long       tx, ty;
     int        revision;  // of the soils that its rough grids are of
     atomic_int changed;
     atomic_int measured;  // `highest` is of its cells as they are
     float      highest;   // terrain_grain.c                       [m]
-    float      plant
-        [];  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves, _plates
+    float*
+        plant;  // on planted ground: strength, then E_v [Pa] (2, TILE_CELLS); then tile_rough, _spring, _waves, _plates
 } Tile;
 
 struct DpTerrain
@@ -258,10 +261,18 @@ TilePart dp_tile_part(long tx, long ty, DpCellRect cells);
 
 // A tile of which only the place is known, for dp_tile_adopt; NULL without memory.
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty);
+void  dp_tile_destroy(Tile* tile);  // NULL is fine
 
 // Take new tiles in, ascending (ty, tx): as the ground is, and as its cover is if `covered`. False without
 // memory: then they are still the caller's.
 bool dp_tile_adopt(DpTerrain* terrain, Tile** fresh, size_t count, bool covered);
+
+// Number t of all tiles, by (ty, tx), whose cells are looked at.
+static inline Tile* tile_at(const DpTerrain* terrain, size_t t)
+{
+    dp_memory_ease(TILE_BYTES);
+    return terrain->sorted[t];
+}
 
 // NULL if nobody touched it.
 Tile*    dp_tile_find(const DpTerrain* terrain, long tx, long ty);

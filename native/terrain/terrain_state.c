@@ -99,14 +99,13 @@ static void look_at(void* context, int index, int worker)
     static const float nothing[TILE_CELLS];
     const Saving*      saving = context;
     const DpTerrain*   terrain = saving->terrain;
-    const Tile*        tile = terrain->sorted[index];
+    Tile*              tile = tile_at(terrain, (size_t)index);
     uint8_t            kept = 0;
     (void)worker;
     for (int k = 0; k < KEPT_FIELDS; ++k)
         if (memcmp(tile_kept_in(tile, k), nothing, sizeof nothing) != 0) kept |= KEPT_TRAIL;
     for (int k = 0; k < terrain->coats; ++k)
-        if (memcmp(tile_coats(terrain, terrain->sorted[index]) + k * TILE_CELLS, nothing,
-                   sizeof nothing) != 0)
+        if (memcmp(tile_coats(terrain, tile) + k * TILE_CELLS, nothing, sizeof nothing) != 0)
             kept |= KEPT_TRAIL;
     if (terrain->cover) {
         float fresh[2 * TILE_CELLS];
@@ -130,17 +129,16 @@ void dp_terrain_save(const DpTerrain* terrain, DpStateWriter* writer)
     dp_write_u64(writer, KEPT_FIELDS);
     dp_write_u64(writer, terrain->tiles);
     for (size_t t = 0; t < terrain->tiles; ++t) {
-        const Tile* tile = terrain->sorted[t];
+        Tile* tile = tile_at(terrain, t);
         dp_write_i64(writer, tile->tx);
         dp_write_i64(writer, tile->ty);
         dp_write_u8(writer, kept[t]);
         for (int k = 0; k < KEPT_FIELDS && (kept[t] & KEPT_TRAIL); ++k)
             dp_write_runs(writer, tile_kept_in(tile, k), TILE_CELLS);
         if (terrain->springs && (kept[t] & KEPT_TRAIL))
-            dp_write_runs(writer, tile_spring(terrain, terrain->sorted[t]), TILE_CELLS);
+            dp_write_runs(writer, tile_spring(terrain, tile), TILE_CELLS);
         for (int k = 0; k < terrain->coats && (kept[t] & KEPT_TRAIL); ++k)
-            dp_write_runs(writer, tile_coats(terrain, terrain->sorted[t]) + k * TILE_CELLS,
-                          TILE_CELLS);
+            dp_write_runs(writer, tile_coats(terrain, tile) + k * TILE_CELLS, TILE_CELLS);
         if (kept[t] & KEPT_COVER) dp_write_runs(writer, tile->plant, 2 * TILE_CELLS);
     }
     dp_write_end(writer);
@@ -177,6 +175,7 @@ static Tile* read_tile(const DpTerrain* terrain, DpStateReader* reader, const Ti
     dp_read_check(reader, *kept <= (KEPT_TRAIL | KEPT_COVER));
     dp_read_check(reader, terrain->cover || !(*kept & KEPT_COVER));
     dp_read_check(reader, !before || before->ty < ty || (before->ty == ty && before->tx < tx));
+    dp_memory_ease(TILE_BYTES);
     Tile* tile = reader->status == DP_OK ? dp_tile_create(terrain, (long)tx, (long)ty) : NULL;
     for (int k = 0; tile && k < KEPT_FIELDS && (*kept & KEPT_TRAIL); ++k)
         read_field(reader, tile_kept(tile, k), TILE_CELLS);
@@ -214,18 +213,19 @@ static DpStatus read_tiles(DpTerrainState* state, DpStateReader* reader, size_t 
             enough = false;
     }
     enough = enough && reader->status == DP_OK && dp_tile_adopt(ground, fresh, created, false);
-    for (size_t t = 0; t < created && !enough; ++t) dp_free(fresh[t]);
+    for (size_t t = 0; t < created && !enough; ++t) dp_tile_destroy(fresh[t]);
     dp_free(fresh);
     if (reader->status != DP_OK) return reader->status;
     if (!enough) return DP_NO_MEMORY;
     for (size_t t = 0; t < ground->tiles; ++t)
-        if (state->kept[t] & KEPT_TRAIL) dp_read_check(reader, stands_on_ground(ground->sorted[t]));
+        if (state->kept[t] & KEPT_TRAIL)
+            dp_read_check(reader, stands_on_ground(tile_at(ground, t)));
     return reader->status;
 }
 
 static void drop_tiles(DpTerrain* ground)
 {
-    for (size_t t = 0; t < ground->tiles; ++t) dp_free(ground->sorted[t]);
+    for (size_t t = 0; t < ground->tiles; ++t) dp_tile_destroy(ground->sorted[t]);
     dp_free(ground->sorted);
     dp_free(ground->marked);
     dp_free(ground->slot);
@@ -267,7 +267,7 @@ DpStatus dp_terrain_load(const DpTerrain* terrain, DpStateReader* reader, DpTerr
 static void ask_cover(void* context, int index, int worker)
 {
     const DpTerrainState* state = context;
-    Tile*                 tile = state->ground.sorted[index];
+    Tile*                 tile = tile_at(&state->ground, (size_t)index);
     (void)worker;
     if (state->kept[index] & KEPT_COVER) return;
     dp_tile_cover(&state->ground, tile->tx, tile->ty, tile->plant);

@@ -26,7 +26,9 @@ static Tile** find_slot(Tile** slot, size_t slots, long tx, long ty)
 
 Tile* dp_tile_find(const DpTerrain* terrain, long tx, long ty)
 {
-    return terrain->slots ? *find_slot(terrain->slot, terrain->slots, tx, ty) : NULL;
+    if (!terrain->slots) return NULL;
+    dp_memory_ease(TILE_BYTES);
+    return *find_slot(terrain->slot, terrain->slots, tx, ty);
 }
 
 TileGrid dp_tile_grid(const DpTerrain* terrain, long tx, long ty)
@@ -92,6 +94,7 @@ void dp_tile_cover(const DpTerrain* terrain, long tx, long ty, float* plant)
 {
     const double x0 = dp_grid_x(&terrain->grid, tx * DP_TILE);
     const double y0 = dp_grid_y(&terrain->grid, ty * DP_TILE);
+    dp_memory_ease(2 * TILE_BYTES);  // of what grows there
     terrain->cover(terrain->cover_context, x0, y0, terrain->grid.cell, DP_TILE, DP_TILE, plant,
                    plant + TILE_CELLS);
 }
@@ -110,6 +113,7 @@ static void fill_tile(void* context, int index, int worker)
     Tile*            tile = filling->tile[index];
     const TileGrid   grid = dp_tile_grid(terrain, tile->tx, tile->ty);
     (void)worker;
+    dp_memory_ease(TILE_BYTES);
     dp_source_tile(&terrain->source, &grid, tile->base_height, tile->kind);
     tile->revision = terrain->revision;
     if (terrain->rough) dp_rough_tile(terrain, tile);
@@ -120,9 +124,26 @@ static void fill_tile(void* context, int index, int worker)
 Tile* dp_tile_create(const DpTerrain* terrain, long tx, long ty)
 {
     const size_t grids = tile_grids(terrain) + (size_t)terrain->coats;
-    Tile*        tile = dp_alloc(1, sizeof(Tile) + grids * TILE_CELLS * sizeof(float));
-    if (tile) tile->tx = tx, tile->ty = ty;
+    Tile*        tile = dp_alloc(1, sizeof *tile);
+    float*       cell = dp_alloc((KEPT_FIELDS + 1 + grids) * sizeof(float) + 1, TILE_CELLS);
+    if (!tile || !cell) {
+        dp_free(tile), dp_free(cell);
+        return NULL;
+    }
+    tile->tx = tx, tile->ty = ty;
+    tile->base_height = cell;
+#define TILE_NEXT(ID, name, number, unit, equation, meaning) tile->name = cell += TILE_CELLS;
+    DP_TERRAIN_FIELDS(TILE_NEXT, DP_FIELD_NONE)
+    tile->plant = cell + TILE_CELLS;
+    tile->kind = (uint8_t*)(tile->plant + grids * TILE_CELLS);
     return tile;
+}
+
+void dp_tile_destroy(Tile* tile)
+{
+    if (!tile) return;
+    dp_free(tile->base_height);
+    dp_free(tile);
 }
 
 bool dp_tile_adopt(DpTerrain* terrain, Tile** fresh, size_t count, bool covered)
@@ -166,7 +187,7 @@ DpStatus dp_terrain_touch(DpTerrain* terrain, DpCellRect cells)
             if (enough) fresh[created++] = tile;
         }
     enough = enough && dp_tile_adopt(terrain, fresh, missing, true);
-    for (size_t t = 0; t < created && !enough; ++t) dp_free(fresh[t]);
+    for (size_t t = 0; t < created && !enough; ++t) dp_tile_destroy(fresh[t]);
     dp_free(fresh);
     return enough ? DP_OK : DP_NO_MEMORY;
 }

@@ -2,6 +2,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/memory.h"
+#include "base/os.h"
+#include "folder.h"
 #include "ground.h"
 #include "terrain/terrain_inside.h"
 
@@ -172,8 +175,52 @@ TEST(without_memory_no_tile_is_new)
     }
 }
 
+// ground of 400 tiles, trodden here and there, as it is saved; fields of all of it go into `told`
+static DpStateWriter trodden(float* told)
+{
+    DpTerrain*   terrain = flat();
+    DpLease*     lease = dp_lease_create();
+    DpSoilPatch* patch = NULL;
+    for (int n = 0; n < 1500; ++n) {
+        const int        at = (n * 1367) % 1500;
+        const DpCellRect cells = dp_cells(30L * (at % 40), 30L * (at / 40), 40, 40);
+        CHECK(dp_terrain_acquire(terrain, lease, cells, &patch) == DP_OK);
+        for (int k = 0; k < patch->row * patch->ny; ++k)
+            patch->compression[k] += 1e-3f * (float)((n + k) % 7);
+        dp_terrain_commit(terrain, lease, dp_cells(0, 0, patch->nx, patch->ny));
+    }
+    dp_terrain_totals(terrain, &(double){0.0}, &(double){0.0}, &(double){0.0});
+    CHECK(dp_terrain_read(terrain, DP_FIELD_COMPRESSION, 0, 0, 1200, 1200, told) == DP_OK);
+    DpStateWriter state = {0};
+    dp_terrain_save(terrain, &state);
+    dp_lease_destroy(lease);
+    dp_terrain_destroy(terrain);
+    return state;
+}
+
+TEST(tiles_that_leave_memory_come_back_to_the_bit)
+{
+    char folder[300], place[400];
+    folder_make(folder, sizeof folder, "tiles");
+    snprintf(place, sizeof place, "%s/pages", folder);
+    const size_t  size = (size_t)1200 * 1200;
+    float *       here = dp_alloc(size, sizeof *here), *there = dp_alloc(size, sizeof *there);
+    DpStateWriter state = trodden(here);
+    const size_t  limit = dp_os_resident() + ((size_t)12 << 20);  // a third of what they take
+    CHECK(dp_memory_hold(place, limit) == DP_OK);
+    DpStateWriter held = trodden(there);
+    CHECK(dp_memory_needs() > 0 && dp_os_resident() <= limit + limit / 10);
+    dp_memory_release();
+    CHECK(memcmp(here, there, size * sizeof *here) == 0);
+    CHECK(held.size == state.size && memcmp(held.bytes, state.bytes, state.size) == 0);
+    dp_write_drop(&held), dp_write_drop(&state);
+    dp_free(here), dp_free(there);
+    FOLDER_REMOVE(folder);
+}
+
 int main(void)
 {
+    RUN(tiles_that_leave_memory_come_back_to_the_bit);
     RUN(tiles_are_found_and_stand_row_by_row);
     RUN(cells_belong_to_the_tiles_that_hold_them);
     RUN(a_touched_rectangle_has_all_its_tiles_and_no_other);
