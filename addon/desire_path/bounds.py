@@ -27,6 +27,7 @@ PLANT_BYTES = 64  # of memory, for each plant that nobody treads on
 RESERVE = 6 << 20  # bytes of memory without which nothing is begun
 REST_BYTES = 0.028  # of a frame's file, for each cell of untouched ground
 PRINT_BYTES = 8.0  # of a frame's file, for each cell of a print
+HELD_BYTES = 100.0  # of the disk, for each cell of a print, where ground waits there for a memory limit
 STATES, STATE_BYTES = 2, 12.0  # of those that are kept to go on from, for each cell of a print
 ADVICE = {  # name: (unit, what to do)
     "frames": ("frames", "let it end earlier"),
@@ -95,7 +96,7 @@ class Limits:
         has, about = "are free" if free else "are the limit", "" if name == "frames" else "about "
         taken, there = _number(amount), _number(most)
         if name in SMALL:
-            (taken, word), there = _bytes(amount), " ".join(_bytes(most))
+            (taken, word), there = _bytes(amount), size_text(most)
             unit = SMALL[name].get(word, unit)
         raise DesirePathError(
             f"This would take {about}{taken} {unit}, and {there} {has}: {advice}, or raise the limit of {name}."
@@ -112,6 +113,11 @@ def _bytes(value: float) -> tuple[str, str]:
     """A size as it is read, and its unit."""
     unit = next((name for name, size in SIZES.items() if value >= 0.1 * size), "kB")
     return _number(value / SIZES[unit]), unit
+
+
+def size_text(value: float) -> str:
+    """A size as it is read: 4.2 GB."""
+    return " ".join(_bytes(value))
 
 
 def _free(name: str, folder: str) -> float:

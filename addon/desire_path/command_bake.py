@@ -30,6 +30,7 @@ from .placement.wade import wade
 SOIL_HELP = f"one of {', '.join(SOILS)}, {', '.join(MEASURED)}, or a .json file that Soil.save or Save Soil wrote"
 KEYS_HELP = 'numbers of that soil that change over time, as {"young_modulus": [[0, 2e6], [5, 4e5]]}: seconds, values'
 TRIAL_CELL = 0.02  # how deep feet sink is tried in cells of this side, or those of the bake if they are larger [m]
+MEMORY_HELP = "how much memory it may take, as 4G or 800M: what does not fit waits on the disk, in its folder"
 SET_HELP = "another number for that soil, as young_modulus=2e6, in SI units and radians; repeatable"
 
 
@@ -169,6 +170,7 @@ def bake_of(args: argparse.Namespace, gait: Gait, ground: Ground, folder: str) -
             limits=limits,
             spray=read_spray(args),
             load_model=args.model,
+            memory=args.memory,
         ),
         output=BakeOutput(frame_start=args.frame_start, frame_end=args.frame_end, film=args.film),
     )
@@ -294,6 +296,7 @@ def press_options(command: Parser) -> None:
         help="another number for that spray, as adhesion=0.004, in SI units; repeatable",
     )
     command.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
+    command.add_argument("--memory", metavar="SIZE", help=MEMORY_HELP)
     command.add_argument(
         "--limit",
         nargs="+",

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 
-from .command_bake import bar
+from . import memory
+from .command_bake import MEMORY_HELP, bar
 from .crowd import scene as scenes
 from .crowd import trajectories
 from .crowd.crowd import Crowd
@@ -15,6 +16,13 @@ from .needs import Parser
 
 
 def _crowd(args: argparse.Namespace) -> None:
+    most = memory.size_of(args.memory)
+    memory.check(most)
+    with memory.held(most, args.out):
+        _walk(args)
+
+
+def _walk(args: argparse.Namespace) -> None:
     scene = scenes.read(args.scene)
     if args.trajectories is None:
         crowd = Crowd(scene, args.out)
@@ -43,4 +51,5 @@ def add(tasks: argparse._SubParsersAction[Parser]) -> None:
         metavar="FILE",
         help="walkers go as another program told: a table frame,id,x,y (.csv), or JuPedSim's (.sqlite)",
     )
+    crowd.add_argument("--memory", metavar="SIZE", help=MEMORY_HELP)
     crowd.set_defaults(task=_crowd)

@@ -29,6 +29,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
+from .. import memory
 from ..bounds import check_reserve
 from ..errors import DesirePathError
 from ..ground.parcels import Parcel
@@ -133,7 +134,7 @@ class Bake(Plan):
     def _run(self) -> Iterator[Progress]:
         check_reserve()
         check_cell(self.cell_size)
-        check_walk(self.options.limits, self.gait, self.count, self.rate())
+        check_walk(self.options.limits, self.gait, self.count, self.rate(), self._most)
         with contextlib.ExitStack() as folders:
             for parcel in sorted(
                 self.parcels, key=lambda each: each.folder
@@ -141,7 +142,13 @@ class Bake(Plan):
                 out = Output(parcel.folder, parcel.owner)
                 out.open(self.wait)
                 folders.callback(out.release)
+            folders.enter_context(memory.held(self._most, self.parcels[0].folder))
             yield from self._into()
+
+    @property
+    def _most(self) -> float | None:
+        """Of memory that may be taken [bytes]."""
+        return memory.size_of(self.options.memory)
 
     def _into(self) -> Iterator[Progress]:
         seconds = {"total": time.perf_counter()}
@@ -186,7 +193,7 @@ class Bake(Plan):
             for share in self.shares:
                 share.thin(self.options.limits.cells)
                 share.find(name)
-            check_grounds(self.options.limits, self.gait, self.shares, self.count)
+            check_grounds(self.options.limits, self.gait, self.shares, self.count, self._most)
             for share in self.shares:
                 share.look()
             states = States(self.shares, name, refused)
@@ -203,6 +210,7 @@ class Bake(Plan):
             begun = time.perf_counter()
             for sim in sims:
                 sim.run(self.sample(frame))
+            memory.check_kept()
             stepped = time.perf_counter()
             for share in self.shares:
                 share.write(number, self.time(frame))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .. import bounds
+from .. import bounds, memory
 from ..bounds import CELLS, Limits
 from ..errors import DesirePathError
 from ..ground import maps, plant_mesh
@@ -57,30 +57,36 @@ def lost_soles(gait: Gait, cell_size: float) -> list[str]:
     return sentences
 
 
-def check_walk(limits: Limits, gait: Gait, frames: int, rate: float) -> None:
-    """Refuse what is too long, before its samples are made. frames: how many are written; rate: samples a second."""
+def check_walk(limits: Limits, gait: Gait, frames: int, rate: float, most: float | None = None) -> None:
+    """Refuse what is too long, before its samples are made. frames: how many are written; rate: samples a second;
+    most: of memory, if it is limited [bytes]."""
     seconds = sum(float(gait.time[after - 1] - gait.time[first]) for first, after in gait.pieces())
     limits.check("frames", frames)
     limits.check("seconds", seconds)
     there = sum(len(values) for part in range(len(gait.part_limb)) for _, values in tracks.pieces(gait.pose, part))
-    limits.check("memory", bounds.SAMPLE_BYTES * there * (seconds * rate + 1.0) / len(gait.time))
+    needed = bounds.SAMPLE_BYTES * there * (seconds * rate + 1.0) / len(gait.time)
+    limits.check("memory", needed)
+    memory.check(most, needed)
 
 
-def check_grounds(limits: Limits, gait: Gait, shares: Sequence[Share], frames: int) -> None:
-    """Refuse what is too large, before its pictures are made; frames that Shares have found already count no more."""
+def check_grounds(limits: Limits, gait: Gait, shares: Sequence[Share], frames: int, most: float | None = None) -> None:
+    """Refuse what is too large, before its pictures are made; frames that Shares have found already count no more.
+    most: of memory, if it is limited [bytes]."""
     cells = [share.cells for share in shares]
     for share in shares:
         _check_maps(share)
     limits.check("cells", max(cells))
     tiles = sum(share.tiles[2] * share.tiles[3] for share in shares)
-    limits.check("memory", bounds.CELL_BYTES * sum(cells) + bounds.TILE_BYTES * tiles)
+    if most is None:
+        limits.check("memory", bounds.CELL_BYTES * sum(cells) + bounds.TILE_BYTES * tiles)
+    memory.check_rest()
     disk = 0.0
     for share, held in zip(shares, cells):
         pressed = bounds.pressed_area(gait, share.loads.touching) / share.sim.cell_size**2 / len(shares)
         if share.atlas:
             disk += (2 + _maps(share)) * bounds.REST_BYTES * share.window[2] * share.window[3]
         disk += (frames - max(share.found, 0)) * bounds.frame_bytes(held, pressed, bool(share.plants))
-        disk += bounds.STATES * bounds.STATE_BYTES * pressed
+        disk += bounds.STATES * bounds.STATE_BYTES * pressed + (bounds.HELD_BYTES * pressed if most else 0.0)
         if share.parcel.plant_mesh:
             disk += plant_mesh.size(share.sim, frames, share.plants)
     limits.check("disk", disk, shares[0].out.folder)

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..core import _native, side_by_side
 from ..errors import DesirePathError
 from ..files import atomic_file, disk
@@ -174,7 +175,7 @@ def order_sums(frames: str) -> None:
 def _sum(path: str) -> str:
     """How many bytes a file has, and their digest, as the core lists it."""
     with atomic_file.reader(path) as file:
-        content = file.read()
+        content = memory.contents(file)
     return f"{len(content)}:{_native.digest(content).hex()}"
 
 

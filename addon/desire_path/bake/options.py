@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from .. import memory
 from ..errors import DesirePathError
 from ..ground.options import SimulationOptions
 from ..ground.sim import LOAD_MODELS
@@ -18,9 +19,11 @@ class BakeOptions(SimulationOptions):
     run() refuses more before anything is written."""
 
     load_model: str = "inertia"  # one of LOAD_MODELS
+    memory: float | str | None = None  # that the program may take, in bytes or as "4G"; what does not fit waits on disk
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        object.__setattr__(self, "memory", memory.size_of(self.memory))
         if self.load_model not in LOAD_MODELS:
             raise DesirePathError(f"There is no load model '{self.load_model}': choose {' or '.join(LOAD_MODELS)}.")
 

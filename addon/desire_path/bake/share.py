@@ -45,7 +45,7 @@ from .plan import Plan
 
 PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it grows
 MAP_FILMS = ("second_", "pass_")
-START_PART = "maps_start.exr.first.part"  # beside bake.new until a bake with sparse pictures has come to its end
+START_PART = "maps_start.exr.first.part"  # beside bake.new until the bake has come to its end
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
 
 
@@ -82,6 +82,11 @@ class Share:
         """Of one picture for playback."""
         return self.atlas.cells if self.atlas else self.window[2] * self.window[3]
 
+    @property
+    def by_tiles(self) -> bool:
+        """Whether its last maps are never in memory as a whole."""
+        return self.atlas is not None or self.plan.options.memory is not None
+
     # ---- what is made ---------------------------------------------------------------------------
 
     def thin(self, most: float) -> None:
@@ -101,7 +106,7 @@ class Share:
         if self.atlas:
             self._film_start()
         else:
-            self.start = self._start_maps()
+            self.write_start(os.path.join(self.out.folder, START_PART))
         if self.parcel.plant_mesh and (len(plan.parcels) == 1 or self._is_planted()):
             count = plan.frame_end - plan.frame_start + 1
             self.mesh = plant_mesh.Writer(self.sim, plan.frame_start, count, self.plants)
@@ -209,31 +214,39 @@ class Share:
     def end(self) -> None:
         """The first and the last maps."""
         self.films.write_maps(self.out.path("maps_final.exr"), self.plan.time(self.plan.frame_end))
-        if self.atlas:
-            disk.replace(os.path.join(self.out.folder, START_PART), self.out.path("maps_start.exr"))
-        else:
-            self.write_start(self.out.path("maps_start.exr"))
+        disk.replace(os.path.join(self.out.folder, START_PART), self.out.path("maps_start.exr"))
+        if not self.by_tiles:
             names = [*(entry.name for entry in maps.MAPS), *self.sim.more_fields]
             self.final = {name: self.sim.read(name, *self.window) for name in names}
         if self.mesh:
             self.mesh.finish(self.sim, self.out.path("plants.pc2"), self.out.path("plants.npz"))
 
     def write_start(self, path: str) -> None:
-        """The map before the first step, after look()."""
-        maps.write(path, self.start, [("time", 0.0), *self._start_notes()])
+        """The map before the first step: now."""
+        i0, j0, nx, ny = self.window
 
-    def _start_notes(self) -> list[tuple[str, str | float]]:
-        return [*((f"unit_{name}", unit) for name, unit in START.items()), *self._notes()]
+        def rows(name: str, j: int, count: int) -> np.ndarray:
+            return self.sim.read(shown[name], i0, j0 + j, nx, count)
 
-    def _film_start(self) -> None:
-        """The same tile by tile, beside what is made: what has more cells than a picture may have takes no memory."""
-        names = {
+        shown = {maps.PICTURE: "young_modulus", **self._start_fields()}
+        maps.write_rows(path, shown, (ny, nx), rows, [("time", 0.0), *self._start_notes()])
+
+    def _start_fields(self) -> dict[str, str]:
+        """What the first map shows, and whose fields these are."""
+        return {
             "young_modulus_in": "young_modulus",
             "plant_strength_in": "plant_strength",
             "plant_strength": "plant_strength",
             "rest": "rest",
             **({entry.name: entry.name for entry in maps.LEAN} if self.plants else {}),
         }
+
+    def _start_notes(self) -> list[tuple[str, str | float]]:
+        return [*((f"unit_{name}", unit) for name, unit in START.items()), *self._notes()]
+
+    def _film_start(self) -> None:
+        """The same tile by tile, beside what is made: what has more cells than a picture may have takes no memory."""
+        names = self._start_fields()
         film = self.sim.open_frames(*self.tiles, self._pages())
         film.open_maps(list(names), self._start_notes(), names)
         film.write_maps(os.path.join(self.out.folder, START_PART), 0.0)
@@ -300,13 +313,10 @@ class Share:
         return any((pressed > 0.0).any() or (heap > 0.0).any() for pressed, heap in self._left())
 
     def _left(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """What lies pressed and heaped on this ground [m], of its whole window or, of sparse pictures, tile by tile."""
-        windows = [self.window]
-        if self.atlas:
-            x, y, nx, ny = self.tiles
-            there = np.argwhere(self.sim.reach_tiles(x, y, nx, ny))
-            windows = [((x + i) * TILE, (y + j) * TILE, TILE, TILE) for j, i in there.tolist()]
-        for window in windows:
+        """What lies pressed and heaped on this ground [m], tile by tile."""
+        x, y, nx, ny = self.tiles
+        for j, i in np.argwhere(self.sim.reach_tiles(x, y, nx, ny)).tolist():
+            window = ((x + i) * TILE, (y + j) * TILE, TILE, TILE)
             own = self._own(*window)
             pressed, heap = (self.sim.read(name, *window)[own].astype(float) for name in ("compression", "heap"))
             yield pressed, heap
@@ -359,20 +369,6 @@ class Share:
         """Those of its maps."""
         more = tuple(maps.Map(name, *field[1:]) for name, field in self.sim.more_fields.items())
         return maps.MAPS + maps.GROUND + (maps.LEAN if self.plants else ()) + more
-
-    def _start_maps(self) -> dict[str, np.ndarray]:
-        strength = self.sim.read("plant_strength", *self.window)
-        modulus = self.sim.read("young_modulus", *self.window)
-        planes = {
-            maps.PICTURE: modulus,
-            "young_modulus_in": modulus,
-            "plant_strength_in": strength,
-            "plant_strength": strength,
-            "rest": self.sim.read("rest", *self.window),
-        }
-        if self.plants:
-            planes.update({entry.name: self.sim.read(entry.name, *self.window) for entry in maps.LEAN})
-        return planes
 
 
 def _link(path: str, to: str) -> None:

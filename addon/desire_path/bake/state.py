@@ -17,7 +17,7 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from .. import bounds
+from .. import bounds, memory
 from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
@@ -55,10 +55,10 @@ def write(path: str, about: dict[str, Any], state: memoryview) -> None:
     line = json.dumps({**about, "size": state.nbytes, "digest": _native.digest(state).hex()}).encode()
     with atomic_file.file(path, "The state of the bake", sync=False) as stream:
         stream.write(MAGIC + _native.digest(line).hex().encode() + b" " + line + b"\n")
-        stream.write(state)
+        memory.write(stream, state)
 
 
-def read(path: str, about: dict[str, Any]) -> tuple[dict[str, Any], bytes]:
+def read(path: str, about: dict[str, Any]) -> tuple[dict[str, Any], memoryview]:
     """(line, state) of a file that write() made; Damaged if it is another one's, or not whole."""
     try:
         with atomic_file.reader(path) as stream:
@@ -69,7 +69,7 @@ def read(path: str, about: dict[str, Any]) -> tuple[dict[str, Any], bytes]:
             found = json.loads(line)
             if any(found.get(name) != value for name, value in about.items()):
                 raise Damaged
-            state = stream.read(found["size"] + 1)
+            state = memory.contents(stream)
     except (OSError, ValueError, KeyError):
         raise Damaged from None
     if len(state) != found["size"] or _native.digest(state).hex() != found["digest"]:
@@ -148,7 +148,7 @@ class States:
         """Where the states of a storey lie that are there already."""
         return os.path.join(self.storeys[storey][1][0].place or os.devnull, "frames")
 
-    def _read(self, frame: int) -> list[bytes] | None:
+    def _read(self, frame: int) -> list[memoryview] | None:
         """The state of each storey; None where plants that were written up to this frame are not what they were."""
         found = []
         for storey, (_, shares) in enumerate(self.storeys):

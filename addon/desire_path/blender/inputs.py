@@ -97,6 +97,7 @@ def taken(scene, company, folders, **more):
             threads=settings.threads,
             spray=sprays.of_ground(settings),
             load_model=walkers[0].desire_path.load_model,
+            memory=1e9 * settings.memory_limit or None,
         ),
         output=BakeOutput(frame_start=first, frame_end=last, **more),
     ), found

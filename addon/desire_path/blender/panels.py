@@ -203,12 +203,12 @@ def draw_output(layout, obj):
         column.prop(settings, "detail_size", text="Detail [m]")
     column.prop(settings, "attributes")
     column.prop(settings, "vertex_group")
-    column.prop(settings, "law")
-    column.prop(settings, "heap")
-    column.prop(settings, "spray")
+    for name in ("law", "heap", "spray"):
+        column.prop(settings, name)
     if settings.spray != "NONE":
         column.prop(settings, "spray_amount")
-    column.prop(settings, "threads")
+    for name in ("threads", "memory_limit"):
+        column.prop(settings, name)
 
 
 def weight(settings):

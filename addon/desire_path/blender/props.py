@@ -224,6 +224,7 @@ class DesirePathSettings(bpy.types.PropertyGroup):
     threads: IntProperty(
         name="Threads", min=0, max=64, default=0, description="Processors to bake with, 0 = all; the result is the same"
     )
+    memory_limit: props_parts.memory_limit()
     bake_id: StringProperty(options={"HIDDEN"}, description="Whose a bake is, see home.py")
     bake_file: StringProperty(options={"HIDDEN"}, description="The file the id was given in")
     bake_seen: StringProperty(options={"HIDDEN"}, description="The same, seen from the folder")

@@ -30,6 +30,18 @@ def changed(_self, _context):
     state.doubt()
 
 
+def memory_limit():
+    return FloatProperty(
+        name="Memory Limit [GB]",
+        default=0.0,
+        min=0.0,
+        soft_max=64.0,
+        precision=1,
+        description="Memory that Blender may take while it bakes, 0 = all there is: what does not fit waits in the "
+        "bake's folder, and the result is the same",
+    )
+
+
 def followed(group):
     """Let what is set of a group count as a change, as what is moved in the scene does."""
     for each in group.__annotations__.values():

@@ -161,6 +161,16 @@ GERMAN = {
         "{} ist von einer anderen Version ({}): eines mit {}.save() speichern."
     ),
     "{} says {}, which no {} has: remove it.": "{} nennt {}, was es nicht gibt ({}): es entfernen.",
+    # ---- memory.py
+    "A memory limit of {} cannot be kept: write one as 4G or 800M.": (
+        "Eine Speichergrenze von {} lässt sich nicht einhalten: eine wie 4G oder 800M angeben."
+    ),
+    "This cannot be done in {} of memory: give at least {}, or no limit.": (
+        "Das geht nicht mit {} Speicher: mindestens {} geben, oder keine Grenze setzen."
+    ),
+    "This system does not say how much memory a program takes: leave out the memory limit.": (
+        "Dieses System sagt nicht, wie viel Speicher ein Programm belegt: die Speichergrenze weglassen."
+    ),
     # ---- files/table.py
     "{} is larger than {} MB: give a shorter table with the columns {}.": (
         "{} ist größer als {} MB: eine kürzere Tabelle mit den Spalten {} geben."

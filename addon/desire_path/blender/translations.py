@@ -157,6 +157,7 @@ GERMAN = {
         "Clods [m]": "Brocken [m]",
         "Lumps": "Klumpen",
         "Lumps [m]": "Klumpen [m]",
+        "Memory Limit [GB]": "Speichergrenze [GB]",
         "Mass": "Masse",
         "Centre": "Mitte",
         "Crust": "Kruste",

@@ -309,6 +309,11 @@ GERMAN = {
     "At once in the shape it comes to rest in": "Sofort in der Form, in der er zur Ruhe kommt",
     "On the rim, falling off over its width, then sliding": "Auf dem Rand, über seine Breite abfallend, dann rutschend",
     "Processors to bake with, 0 = all; the result is the same": "Prozessoren, 0 = alle; das Ergebnis ist dasselbe",
+    "Memory that Blender may take while it bakes, 0 = all there is: what does not fit waits in the bake's folder, and "
+    "the result is the same": (
+        "Speicher, den Blender beim Backen belegen darf, 0 = allen: was nicht hineinpasst, wartet im Ordner des "
+        "Gebackenen; das Ergebnis ist dasselbe"
+    ),
     # ---- a walker
     "This armature, or rigid body, leaves prints": "Dieses Skelett, oder dieser starre Körper, hinterlässt Abdrücke",
     "The mesh this walker leaves prints in": "Das Netz, in dem dieser Läufer Abdrücke hinterlässt",

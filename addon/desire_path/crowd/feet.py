@@ -22,6 +22,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..bake import state as states
 from ..core import _native
 from ..errors import DesirePathError
@@ -97,6 +98,7 @@ class Feet:
             if runs:
                 self.pressed, self._last, rested = self.pressed + 1, number, number
             self._done = number
+            memory.check_kept()
             if runs and time.monotonic() - kept > EVERY:
                 self._keep(about)
                 kept = time.monotonic()
@@ -181,7 +183,15 @@ class Feet:
             self.sim.rest_plants(self.scene.rest_days * DAY)
         i0, i1, j0, j1 = self.sim.cells(self.where.box)
         names = [each.name for each in (*maps.MAPS, *maps.GROUND, *(maps.LEAN if self.sim.plantings else ()))]
-        planes = {name: self.sim.read(name, i0, j0, i1 - i0, j1 - j0) for name in names}
+        deepest = 0.0
+
+        def rows(name: str, j: int, count: int) -> np.ndarray:
+            nonlocal deepest
+            found = self.sim.read(name, i0, j0 + j, i1 - i0, count)
+            if name == "compression":
+                deepest = max(deepest, float(found.max()))
+            return found
+
         x0, y0, _, _ = self.sim.box((i0, i1, j0, j1))
         ground = {"ground": self.scene.heights or "flat"}
         notes: dict[str, str | float] = {
@@ -190,13 +200,13 @@ class Feet:
             "originY": y0,
             "parameters": json.dumps(ground),
         }
-        maps.write(os.path.join(self.folder, FINAL), planes, notes)
+        maps.write_rows(os.path.join(self.folder, FINAL), names, (j1 - j0, i1 - i0), rows, notes)
         report = self.sim.report()
         report = {
             "version": VERSION,
             "passages": self.pressed,
             "contacts": report["contacts"],
-            "deepest_m": float(planes["compression"].max()),
+            "deepest_m": deepest,
             **({"cover": cover(self.sim)} if self.sim.plants_count() else {}),
         }
         atomic_file.write_json(os.path.join(self.folder, REPORT), report, "The numbers of the feet")

@@ -234,7 +234,7 @@ class Job:
         about, data = states.read(path, self._task(window, tile))
         parts, at = {}, 0
         for name, size in about["parts"].items():
-            parts[name] = data[at : at + size]
+            parts[name] = bytes(data[at : at + size])
             at += size
         return about, parts
 

@@ -232,7 +232,6 @@ class _Cut:
     def write(self, folder: str) -> dict[str, str]:
         """All files but job.json; returns their digests by name."""
         share, sim = self.share, self.sim
-        share.look()
         films = share.open_films()
         films.write_frame(os.path.join(folder, "rest", "trail_0000.exr"), 0.0)
         if share.plants:

@@ -13,9 +13,9 @@ read alike. `Y` repeats a file's first map for programs that know no layers, as 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -41,6 +41,7 @@ class Map(NamedTuple):
 
 MAX_CELLS = 1 << 28  # of one file, as native/maps has it
 LAYER = ".V"  # the one channel of a layer, as Blender calls a value
+ROWS = 64  # of planes that are written some at a time; native/maps/maps.h has the same
 PICTURE = "Y"  # the channel that every program shows, grey
 
 
@@ -90,6 +91,37 @@ def write(
         if grid.ndim != 2 or 0 in grid.shape:
             raise DesirePathError(f"The map '{name}' for {path} has the shape {grid.shape}: give it rows and columns.")
         grids[name] = grid
+    _write(path, grids, notes)
+
+
+def write_rows(
+    path: str | os.PathLike[str],
+    names: Iterable[str],
+    shape: tuple[int, int],
+    rows: Callable[[str, int, int], np.ndarray],
+    notes: Mapping[str, str | float] | Iterable[tuple[str, str | float]] = (),
+) -> None:
+    """The same of planes that are never in memory as a whole.
+
+    shape: (ny, nx); rows(name, j, count): float32 (count, nx) of a plane from its row j on
+    """
+    ny, nx = shape
+    grids = {name: np.zeros((ROWS, nx), np.float32) for name in names}
+
+    def fill(j: int) -> None:
+        first, after = max(j, 0), min(j + ROWS, ny)
+        for name, grid in grids.items():
+            grid[first - j : after - j] = rows(name, first, after - first)
+
+    _write(os.fspath(path), grids, notes, fill, ny)
+
+
+def _write(
+    path: str,
+    grids: Mapping[str, np.ndarray],
+    notes: Mapping[str, str | float] | Iterable[tuple[str, str | float]],
+    *rows: Any,
+) -> None:
     if len({grid.shape for grid in grids.values()}) > 1:
         shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
         raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
@@ -97,7 +129,7 @@ def write(
     pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in said]
     atomic_file.check(path, "The maps")
     try:
-        _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs)
+        _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs, *rows)
     except OSError as problem:
         raise DesirePathError(
             f"{path} cannot be written ({_clause(problem)}): make room or choose another folder."
