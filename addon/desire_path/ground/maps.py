@@ -41,7 +41,7 @@ class Map(NamedTuple):
 
 MAX_CELLS = 1 << 28  # of one file, as native/maps has it
 LAYER = ".V"  # the one channel of a layer, as Blender calls a value
-ROWS = 64  # of planes that are written some at a time; native/maps/maps.h has the same
+ROWS: int = _native.TILE  # of planes that are written some at a time
 PICTURE = "Y"  # the channel that every program shows, grey
 
 
