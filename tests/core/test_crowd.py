@@ -3,6 +3,7 @@
 import json
 import math
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -103,6 +104,18 @@ def test_ways_through_snow_meet_squarely(tmp_path):
     worn = lines(scene.ground.left(crowd.load) < 0.5, scene.cell)
     assert network.length(worn, scene.cell) == pytest.approx(505.0, rel=0.05)
     assert 1.11 <= told["detour"] <= 1.21
+
+
+def test_snow_asks_for_new_ways_as_seldom_as_one_may(tmp_path):
+    """Every 5 % of the passages so far, or after each of them: within 2 %, the same lengths and tracks."""
+    scene = scenes.of(small(ground="snow-25") | {"passages": 300, "renewals": 3})
+    found = []
+    for renewal in (scene.ground.renewal, 1e-9):
+        crowd = Crowd(replace(scene, ground=replace(scene.ground, renewal=renewal)), tmp_path / str(renewal))
+        found.append((crowd.run()["detour"], crowd.load))
+    (seldom, load), (each, by_each) = found
+    assert seldom == pytest.approx(each, rel=0.02) and not (load == by_each).all()
+    assert (load > 0.5).sum() == pytest.approx((by_each > 0.5).sum(), rel=0.02)
 
 
 def test_passages_depend_on_their_number_alone():
