@@ -102,14 +102,12 @@ class Simulation(Standing):
                 soil_numbers(now),
                 self.cell_size,
                 self.origin,
-                CONTACT_LAWS.index(options.law),
-                HEAPS.index(options.heap),
-                options.rim_width,
-                100000,
-                0.25,
-                options.threads,
-                times,
-                lain.numbers(),
+                law=CONTACT_LAWS.index(options.law),
+                heap=HEAPS.index(options.heap),
+                rim_width=options.rim_width,
+                workers=options.threads,
+                times=times,
+                layers=lain.numbers(),
             )
         except ValueError as problem:
             if "no ground" in str(problem):
