@@ -123,6 +123,33 @@ def test_killed_at_any_step_a_folder_shows_one_bake(tmp_path, monkeypatch, can):
     assert not died and seen == {True, False}
 
 
+def test_who_is_half_way_along_a_link_comes_by_the_new_bake(tmp_path, monkeypatch):
+    folder = laid(tmp_path / "bake")
+    found = []
+
+    def looked(call):
+        def done(*args):
+            link = folder / output.SHOWN
+            turned = link.is_symlink() and os.readlink(link) == output.NEW
+            result = call(*args)
+            if turned:  # a reader that has read the link before looks on from there
+                found.append({name: (folder / output.NEW / name).read_text() for name in NEW})
+            return result
+
+        return done
+
+    monkeypatch.setattr(disk, "swap", looked(disk.swap))
+    monkeypatch.setattr(disk, "sync_one", looked(disk.sync_one))
+    out = Output(str(folder))
+    out.open()
+    out.ready()
+    out.publish()
+    out.release()
+    assert len(found) > 5 and all(set(each.values()) == {"new"} for each in found)
+    assert shown(folder) == dict.fromkeys(NEW, "new")
+    assert sorted(each.name for each in folder.iterdir()) == sorted({name.split("/")[0] for name in NEW})
+
+
 def test_folders_of_one_bake_are_shown_together(tmp_path):
     """Once all are ready, whoever comes next shows them; before, what is ready is taken back."""
     for name, whole_bake in (("ready", True), ("taken back", False)):

@@ -3,9 +3,11 @@
 All names change at one moment, though no system can exchange several names at once: each name that is
 shown is first made a link through the one link `bake.shown`, which leads to bake.old, where what it named went
 (exchanged with it, so that no name is ever missing and none shows anything new); then `bake.shown` is turned to
-bake.new, in one rename; then each name is exchanged for the real file or folder again, and the links go. A process
-that is killed in between leaves names that show the old bake, all of it, or the new one. Every step looks at what
-is there, so that whoever comes next (a bake, free(), read_index()) takes the same way from the beginning.
+bake.new, in one rename; then each name is exchanged for the real file or folder again, and the links go at the end:
+who was half way along one when that happened comes by it in bake.new, and through bake.new/bake.shown, which leads
+back, to what is shown. A process that is killed in between leaves names that show the old bake, all of it, or the new
+one. Every step looks at what is there, so that whoever comes next (a bake, free(), read_index()) takes the same way
+from the beginning.
 Where the disk cannot exchange names, a folder's own is missing for the time of one rename; where it has no links,
 `bake.shown` is a list of what is new and names change one after the other, and whoever comes next ends that.
 """
@@ -31,6 +33,8 @@ def clear(folder: str, name: str) -> None:
         delete(path, INSIDE[inside])
         if os.path.isdir(path):
             move(path, os.path.join(folder, inside))
+    if os.path.islink(os.path.join(top, SHOWN)):
+        os.unlink(os.path.join(top, SHOWN))
     delete(top, INSIDE[""])
 
 
@@ -46,12 +50,14 @@ def exchange(folder: str) -> None:
                 os.unlink(turned)
             os.symlink(NEW, turned)
             disk.replace(turned, shown)  # this is the moment
+        with contextlib.suppress(FileExistsError, FileNotFoundError):
+            os.symlink("..", os.path.join(folder, NEW, SHOWN))
         for name in NAMES:
             _settle_name(folder, name)
     else:
         _one_by_one(folder, shown)
-    os.unlink(shown)
     disk.sync_one(folder)
+    os.unlink(shown)
     clear(folder, OLD)
     clear(folder, NEW)
 
@@ -80,8 +86,8 @@ def _settle_name(folder: str, name: str) -> None:
     here, new = os.path.join(folder, name), os.path.join(folder, NEW, name)
     ours, there = is_link(here, name), os.path.lexists(new) and not is_link(new, name)
     if ours and there and disk.swap(here, new):
-        os.unlink(new)
-    elif there and (ours or not os.path.lexists(here)):
+        return  # the link in bake.new goes with the others
+    if there and (ours or not os.path.lexists(here)):
         if os.path.isdir(new) and ours:
             os.unlink(here)  # a folder cannot be renamed to a link's name
         disk.replace(new, here)

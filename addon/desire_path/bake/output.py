@@ -150,8 +150,8 @@ class Output:
         if os.path.lexists(os.path.join(self.folder, SHOWN)):
             exchange(self.folder)
         clear(self.folder, OLD)
-        if not os.path.exists(self.path("frames", "index.json")):
-            clear(self.folder, NEW)  # nothing there to go on with
+        if os.path.islink(self.path(SHOWN)) or not os.path.exists(self.path("frames", "index.json")):
+            clear(self.folder, NEW)  # nothing there to go on with, or what is shown already
         for name, patterns in EARLIER.items():
             delete(os.path.join(self.folder, name), patterns)
         delete(os.path.join(self.folder, ""), PARTS, itself=False)
