@@ -8,7 +8,7 @@ import numpy as np
 from scenes import meshes
 from test_bake import scene
 
-from desire_path.blender import compat, moves, sample, soil_keys, soils
+from desire_path.blender import compat, moves, private, sample, soil_keys, soils
 from desire_path.ground.soil import SOILS, Soil
 from desire_path.ground.soil_keys import SoilKeys
 
@@ -138,6 +138,36 @@ def test_a_soil_that_a_driver_leads_is_pressed_as_it_is_at_each_time_whatever_fr
     assert ground.desire_path.bake_state == "FRESH"
     bpy.data.objects["Leader"].location.y = 3.0  # has no part in it
     assert ground.desire_path.bake_state == "FRESH"
+
+
+def test_drivers_that_ask_the_scene_lead_soils_and_masses_and_who_is_seen(folder):
+    ground, rig = scene(folder, frames=16)
+    now = bpy.context.scene
+    now["rain"] = 1.25
+    now.keyframe_insert('["rain"]', frame=1)
+    now["rain"] = 125.0
+    now.keyframe_insert('["rain"]', frame=16)
+    for curve in compat.curves_played(now.animation_data):
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    for owner, name, path, expression in (
+        (ground.desire_path.soil_numbers, "young_modulus", '["rain"]', "x * 1e6"),
+        (rig.desire_path, "mass", "frame_current", "x + 70.0"),
+        (rig, "hide_render", "frame_current", "x > 8"),
+    ):
+        driver = owner.driver_add(name).driver
+        variable = driver.variables.new()
+        variable.name, variable.targets[0].id_type = "x", "SCENE"
+        variable.targets[0].id, variable.targets[0].data_path = now, path
+        driver.expression = expression
+    shown(5)
+    (found,) = soil_keys.of_ground(now, ground, 1, 16)
+    assert np.isclose(found.at(0.0).young_modulus, 1.25e6, rtol=1e-5)
+    assert np.isclose(found.at(15 / 24).young_modulus, 1.25e8, rtol=1e-5)
+    gait = sample.record(now, rig, 1, 16)
+    assert np.isclose(soil_keys.weighed(now, gait, rig, 16).mass_keys[0][-1][1], 86.0)
+    assert private.off_in_renders(now, rig, [1.0, 8.0, 9.0, 16.0]) == [False, False, True, True]
+    assert now.frame_current == 5
 
 
 def test_painted_soils_in_strips_and_masses_with_drivers_count_at_each_time(folder):

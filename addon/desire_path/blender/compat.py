@@ -327,6 +327,14 @@ def is_keyed(animation, path):
     return animation is not None and (curve(animation, path) is not None or animation.drivers.find(path) is not None)
 
 
+def asks_scene(driver):
+    """Whether a driver asks for properties of a scene, as its frame's number or what is keyed there."""
+    return any(
+        variable.type == "CONTEXT_PROP" or any(isinstance(each.id, bpy.types.Scene) for each in variable.targets)
+        for variable in driver.variables
+    )
+
+
 def use_action(animation, action, slot=None):
     """Let an object play an action; `slot` where actions have slots, else the one that fits."""
     animation.action = action

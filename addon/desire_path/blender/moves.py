@@ -264,13 +264,11 @@ class _Movers:
         if driver.type == "SCRIPTED":
             words = re.findall(r"(?<![.\w])[A-Za-z_]\w*", driver.expression)
             self.goes_on |= any(word not in names and word not in TIMELESS for word in words)
+        asks = compat.asks_scene(driver)
+        self.goes_on, self.asks_scene = self.goes_on or asks, self.asks_scene or asks
         for variable in driver.variables:
-            self.goes_on |= variable.type == "CONTEXT_PROP"
-            self.asks_scene |= variable.type == "CONTEXT_PROP"
             for target in variable.targets if variable.type != "CONTEXT_PROP" else ():
-                if isinstance(target.id, bpy.types.Scene):
-                    self.goes_on = self.asks_scene = True
-                elif target.id is not None:
+                if target.id is not None and not isinstance(target.id, bpy.types.Scene):
                     self.tied.append(target.id)
 
 

@@ -40,6 +40,27 @@ def shown_scene(scene):
 
 
 @contextmanager
+def following(scene, obj):
+    """(scene, object) to look at for how properties of an object follow its keys, strips and drivers: a bare copy in a
+    scene of its own, or itself in `scene` where its drivers ask that."""
+    drivers = obj.animation_data.drivers if obj.animation_data is not None else ()
+    asks = any(compat.asks_scene(each.driver) for each in drivers if not each.mute)
+    if asks and obj.name in scene.view_layers[0].objects:
+        with looked_at(obj), shown_scene(scene):
+            yield scene, obj
+        return
+    copy = obj.copy()
+    try:
+        copy.parent = None  # what moves and shapes it costs time and does not matter
+        copy.modifiers.clear()
+        copy.constraints.clear()
+        with private_scene(scene, copy) as own:
+            yield own, copy
+    finally:
+        bpy.data.objects.remove(copy)
+
+
+@contextmanager
 def looked_at(*objects):
     """Objects that are disabled in viewports are looked at all the same: renders show them."""
     hidden = [each for each in objects if each.hide_viewport]
@@ -87,18 +108,12 @@ def off_in_renders(scene, obj, frames):
             return [obj.hide_render]
         return [keyed.evaluate(frame / clock.stretch(scene)) > 0.5 for frame in frames]
     pick = np.linspace(0, len(frames) - 1, min(len(frames), MAX_LOOKS)).round().astype(int)
-    found, copy = [], obj.copy()
-    try:
-        copy.parent = None  # what moves and shapes it costs time and does not matter
-        copy.modifiers.clear()
-        copy.constraints.clear()
-        with private_scene(scene, copy) as own:
-            for number in pick:
-                integer = math.floor(frames[number])
-                own.frame_set(integer, subframe=frames[number] - integer)
-                found.append(copy.evaluated_get(own.view_layers[0].depsgraph).hide_render)
-    finally:
-        bpy.data.objects.remove(copy)
+    found = []
+    with following(scene, obj) as (own, each):
+        for number in pick:
+            integer = math.floor(frames[number])
+            own.frame_set(integer, subframe=frames[number] - integer)
+            found.append(each.evaluated_get(own.view_layers[0].depsgraph).hide_render)
     return found
 
 

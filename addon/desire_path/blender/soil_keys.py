@@ -1,7 +1,7 @@
 """soil_keys.py - keys on the numbers of a ground's soils, and on the mass of a walker, as a bake takes them.
 
 F-curves of the object's action ------------------,--every frame--> SoilKeys, or a Soil where nothing changes;
-drivers, strips --a copy in a scene of its own--'                   keys of a mass
+drivers, strips --what private.following sees----'                   keys of a mass
 """
 
 from dataclasses import replace
@@ -82,18 +82,11 @@ def _moving(scene, obj, first, last):
         return {ROOT + rest: [curve.evaluate(at) for at in frames] for rest, curve in curves.items()}
     paths |= {ROOT + rest for rest in _curves(obj, ROOT)}
     found = {path: [] for path in paths}
-    copy = obj.copy()
-    try:
-        copy.parent = None  # what moves and shapes it costs time and does not matter
-        copy.modifiers.clear()
-        copy.constraints.clear()
-        with private.private_scene(scene, copy) as own:
-            for frame in range(first, last + 1):
-                now = private.evaluated(own, copy, frame)
-                for path, values in found.items():
-                    values.append(now.path_resolve(path))
-    finally:
-        bpy.data.objects.remove(copy)
+    with private.following(scene, obj) as (own, each):
+        for frame in range(first, last + 1):
+            now = private.evaluated(own, each, frame)
+            for path, values in found.items():
+                values.append(now.path_resolve(path))
     return found
 
 
