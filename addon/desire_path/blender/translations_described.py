@@ -392,16 +392,4 @@ GERMAN = {
         "Die Knochen der Füße des Läufers, gefunden durch Läufer hinzufügen oder Füße finden"
     ),
     "The bone the body hangs on": "Der Knochen, an dem der Körper hängt",
-    # ---- spray
-    "A volume for each frame of what flies over the ground": "Ein Volumen je Bild von dem, was über dem Boden fliegt",
-    "What sticks to soles and wheels, and flies off them where they are moved fast": (
-        "Was an Sohlen und Rädern haftet und fortfliegt, wo sie schnell bewegt werden"
-    ),
-    "Nothing sticks": "Nichts haftet",
-    "Dry grains, which come off at once": "Trockene Körner, die sich sofort lösen",
-    "Lumps that hold on, and fly off what turns or swings fast": (
-        "Klumpen, die haften und von dem fortfliegen, was sich schnell dreht oder schwingt"
-    ),
-    "Light flakes, which the air slows down": "Leichte Flocken, die die Luft bremst",
-    "How much of it sticks, against what is usual": "Wie viel davon haftet, gegen das Übliche",
 }

@@ -1,4 +1,4 @@
-"""translations_soil.py - the descriptions of a soil's numbers in other languages; see translations_described.py."""
+"""translations_soil.py - how soils and spray are described in other languages; see translations_described.py."""
 
 GERMAN = {
     "How thick the soft soil lies over rigid ground, in metres": (
@@ -128,4 +128,16 @@ GERMAN = {
     ),
     "What this layer is made of": "Woraus diese Schicht besteht",
     "Where the layer goes": "Wohin die Schicht kommt",
+    # ---- spray
+    "A volume for each frame of what flies over the ground": "Ein Volumen je Bild von dem, was über dem Boden fliegt",
+    "What sticks to soles and wheels, and flies off them where they are moved fast": (
+        "Was an Sohlen und Rädern haftet und fortfliegt, wo sie schnell bewegt werden"
+    ),
+    "Nothing sticks": "Nichts haftet",
+    "Dry grains, which come off at once": "Trockene Körner, die sich sofort lösen",
+    "Lumps that hold on, and fly off what turns or swings fast": (
+        "Klumpen, die haften und von dem fortfliegen, was sich schnell dreht oder schwingt"
+    ),
+    "Light flakes, which the air slows down": "Leichte Flocken, die die Luft bremst",
+    "How much of it sticks, against what is usual": "Wie viel davon haftet, gegen das Übliche",
 }
