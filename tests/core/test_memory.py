@@ -77,7 +77,7 @@ def files(folder):
 def least(work="run"):
     """The smallest limit [bytes] that a Python of its own says it keeps to."""
     told = child(f"{work}('/nowhere', 1e7)").stderr
-    return int(memory.size_of(told.split("at least ")[1].split(",")[0]))
+    return int(memory.size_of(told.rsplit("at least ", 1)[1].split(",")[0]))
 
 
 @pytest.mark.parametrize("work", ["run", "grow"])
