@@ -153,25 +153,26 @@ def test_the_print_does_not_depend_on_the_frame_rate(folder):
     for trail in trails[:-1]:
         for side in (left, ~left):
             within(trail.drop[side].max(), fine.drop[side].max(), 0.01)
-            within(trail.compression[side].sum(), fine.compression[side].sum(), 0.01)
-            within(trail.heap[side].sum(), fine.heap[side].sum(), 0.01)
-        for name in ("deepest_m", "pressed_m3", "heaped_m3"):
-            within(trail.report[name], fine.report[name], 0.01)
+            # what is cut by a foot that goes aside as it leaves depends on when it is seen to leave
+            within(trail.compression[side].sum(), fine.compression[side].sum(), 0.015)
+            within(trail.heap[side].sum(), fine.heap[side].sum(), 0.03)
+        for name, share in (("deepest_m", 0.01), ("pressed_m3", 0.01), ("heaped_m3", 0.03)):
+            within(trail.report[name], fine.report[name], share)
 
 
 # ---- 3: the ledger ------------------------------------------------------------------------------------------
 
 
 def balanced(trail, nu):
-    """Soil in heaps is what left firm ground and other heaps, sum b cell^2 = 2 nu (Vc + Vb) - Vb; and the mesh
-    holds what the report says."""
+    """Soil in heaps is what left firm ground and other heaps, sum b cell^2 = 2 nu (Vc + Vb) - Vb + Vl, Vl what soles
+    that slide cut; and the mesh holds what the report says."""
     told = trail.report
     area = trail.cell**2
-    within(trail.compression.sum() * area, told["pressed_m3"], 1e-6)
+    within(trail.compression.sum() * area, told["pressed_m3"] + told["loosened_m3"], 1e-6)
     within(trail.heap.sum() * area, told["heaped_m3"], 1e-6)
     moved = 2.0 * nu * (told["pressed_m3"] + told["pressed_heap_m3"])
     within(told["displaced_m3"], moved, 1e-6)
-    within(told["heaped_m3"], moved - told["pressed_heap_m3"], 1e-6)
+    within(told["heaped_m3"], moved - told["pressed_heap_m3"] + told["loosened_m3"], 1e-6)
 
 
 def test_a_first_print_heaps_two_nu_of_its_volume(folder):

@@ -154,6 +154,7 @@ def test_what_blenders_rigid_bodies_let_fall_presses(folder):
     scene.frame_set(7)
     report, depth, at = pressed_by(obj, ground, folder, mass=400.0)
     assert (ground.desire_path.frame_start, ground.desire_path.frame_end) == (1, 40)
+    assert ground.desire_path.bake_state == "FRESH"  # it does not fall on what it has pressed
     deep = at[depth > 0.001]
     assert report["contacts"] >= 1 and len(deep)
     lies = sample.record(scene, obj, 1, 40).pose[0, -1, :3]  # after a bounce or two
