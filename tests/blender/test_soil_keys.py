@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from scenes import meshes
 from test_bake import scene
+from test_soils import paint
 
 from desire_path.blender import compat, moves, private, sample, soil_keys, soils
 from desire_path.ground.soil import SOILS, Soil
@@ -62,10 +63,7 @@ def test_a_soil_that_hardens_is_pressed_less_and_what_is_baked_is_outdated(folde
 
 def test_words_of_people_have_keys_as_numbers_do_and_painted_soils_their_own(folder):
     ground, _ = scene(folder, frames=16)
-    ground.vertex_groups.new(name="wet").add(range(20), 1.0, "REPLACE")
-    bpy.ops.object.desire_path_paint_add()
-    painted = ground.desire_path.painted[0]
-    painted.vertex_group, painted.soil = "wet", "mud"
+    paint(ground)
     key(ground, "desire_path.painted[0].soil_numbers.softness", [(1, 0.5), (9, 1.0)])
     key(ground, "desire_path.soil_numbers.rim", [(1, 0.0), (9, 1.0)])
     own, wet = soil_keys.of_ground(bpy.context.scene, ground, 1, 16)
@@ -172,10 +170,7 @@ def test_drivers_that_ask_the_scene_lead_soils_and_masses_and_who_is_seen(folder
 
 def test_painted_soils_in_strips_and_masses_with_drivers_count_at_each_time(folder):
     ground, armature = scene(folder, frames=16)
-    ground.vertex_groups.new(name="wet").add(range(20), 1.0, "REPLACE")
-    bpy.ops.object.desire_path_paint_add()
-    painted = ground.desire_path.painted[0]
-    painted.vertex_group, painted.soil = "wet", "mud"
+    paint(ground)
     key(ground, "desire_path.painted[0].soil_numbers.young_modulus", [(1, 1e5), (16, 1e6)])
     data = ground.animation_data
     action, slot = data.action, getattr(data, "action_slot", None)

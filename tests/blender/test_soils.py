@@ -70,12 +70,18 @@ def test_a_soil_is_saved_and_taken_from_a_file(folder):
     assert settings.soil_file == "" and soils.soil_of(settings) is SOILS["snow"]
 
 
-def test_painted_soils_have_numbers_of_their_own(folder):
-    ground, _ = scene(folder, frames=16)
+def paint(ground):
+    """Mud on the first points of the active ground; the settings of what is painted."""
     ground.vertex_groups.new(name="wet").add(range(20), 1.0, "REPLACE")
     bpy.ops.object.desire_path_paint_add()
     painted = ground.desire_path.painted[0]
     painted.vertex_group, painted.soil = "wet", "mud"
+    return painted
+
+
+def test_painted_soils_have_numbers_of_their_own(folder):
+    ground, _ = scene(folder, frames=16)
+    painted = paint(ground)
     painted.soil_numbers.settle_time = 0.5
     own, wet = grounds.soils(ground)
     assert own is SOILS["dry-sand"] and near(wet, replace(SOILS["mud"], settle_time=0.5))

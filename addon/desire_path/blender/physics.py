@@ -1,25 +1,6 @@
 """physics.py - what Blender's own rigid bodies move, frame by frame."""
 
-from contextlib import contextmanager
-
 import numpy as np
-
-from . import playback
-
-
-@contextmanager
-def _unpressed(scene):
-    """Grounds as they lay before they were baked, for what falls on them meanwhile: a bake follows from the fall, and
-    not the fall from the bake that is shown."""
-    shown = [playback.modifier(each) for each in scene.objects if each.type == "MESH" and not each.library]
-    shown = [each for each in shown if each is not None and each.show_viewport]
-    for each in shown:
-        each.show_viewport = False
-    try:
-        yield
-    finally:
-        for each in shown:
-            each.show_viewport = True
 
 
 def simulated(obj):
@@ -31,20 +12,14 @@ def simulated(obj):
     return False
 
 
+def others(obj):
+    """What may meet an object that rigid bodies move: all bodies of its scenes."""
+    worlds = [scene.rigidbody_world for scene in obj.users_scene] if simulated(obj) else []
+    return {each for world in worlds if world is not None and world.collection for each in world.collection.objects}
+
+
 def fallen(scene, obj, frames, samples):
     """World matrices of what is simulated: its own scene is stepped through, and left as it was."""
-    with _unpressed(scene):
-        placed = _stepped(scene, obj, frames)
-    if samples == 1:
-        return placed
-    at = np.arange(len(frames)) / samples  # between whole frames, straight
-    low = np.minimum(at.astype(int), len(placed) - 2)
-    share = (at - low)[:, None, None]
-    return (1.0 - share) * placed[low] + share * placed[low + 1]
-
-
-def _stepped(scene, obj, frames):
-    """The same at whole frames."""
     world = scene.rigidbody_world
     before, keep, out = scene.frame_current, scene.frame_subframe, []
     first, last = round(frames[0]), round(frames[-1])
@@ -56,4 +31,10 @@ def _stepped(scene, obj, frames):
                 out.append(np.array(obj.evaluated_get(depsgraph).matrix_world, np.float64))
     finally:
         scene.frame_set(before, subframe=keep)
-    return np.array(out)
+    placed = np.array(out)
+    if samples == 1:
+        return placed
+    at = np.arange(len(frames)) / samples  # between whole frames, straight
+    low = np.minimum(at.astype(int), len(placed) - 2)
+    share = (at - low)[:, None, None]
+    return (1.0 - share) * placed[low] + share * placed[low + 1]

@@ -28,12 +28,12 @@ PLACED = "desire_path_placed"  # on an action that Place Feet made: the FootShap
 
 
 @contextmanager
-def still(armature):
-    """Grounds this rig is bound to (by shrinkwrap, say) as they were before any bake."""
-    bound = list(armature.constraints)
-    for bone in armature.pose.bones if armature.pose else ():
+def still(obj):
+    """Grounds this rig is bound to (by shrinkwrap, say), or this body falls on, as they were before any bake."""
+    bound = list(obj.constraints)
+    for bone in obj.pose.bones if obj.pose else ():
         bound += bone.constraints
-    targets = {getattr(each, "target", None) for each in bound} - {None}
+    targets = {getattr(each, "target", None) for each in bound} - {None} | physics.others(obj)
     ours = [m for m in map(playback.modifier, targets) if m is not None and m.show_viewport]
     for each in ours:
         each.show_viewport = False
@@ -323,9 +323,9 @@ def _solid(scene, obj, frames, samples, rate, scale):
     ):
         (first, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
         placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
-    if physics.simulated(obj):
-        placed = physics.fallen(scene, obj, frames, samples)
-        placed = placed if carry is None else np.array(carry.back) @ placed
+        if physics.simulated(obj):
+            placed = physics.fallen(scene, obj, frames, samples)
+            placed = placed if carry is None else np.array(carry.back) @ placed
     away = np.abs(placed[:, :3, 3]).max(axis=1) * scale
     if FARTHEST < away.max() < axes.FAR:
         raise DesirePathError(
