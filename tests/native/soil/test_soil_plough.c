@@ -77,6 +77,24 @@ TEST(all_that_it_slides_over_is_cut_and_little_of_it_pressed)
         }
 }
 
+// at no moment is more cut than was slid over by then, though cells are covered by leaps
+TEST(nothing_is_cut_ahead_of_time)
+{
+    Ground       g = ground_make(NX, NY, 0.01, sand());
+    const double tau = (double)g.soil[0].settle_time, by = 0.01 / 16.0;
+    BoxSole      sole = SOLE;
+    DpSlide      slide = {.at = {by, 0.0}};
+    double       cut = 0.0;
+    step(&g, sole, DP_CONTACT_SOLE, NULL, 2.0 * tau);
+    for (int k = 1; k <= 64; ++k) {
+        sole.x += by;
+        cut += step(&g, sole, DP_CONTACT_SOLE, &slide, 0.02 * tau).cut_firm;
+        CHECK(cut <= 1.02 * k * by * DEPTH * WIDTH);
+    }
+    CHECK(cut > 0.8 * 64.0 * by * DEPTH * WIDTH);
+    ground_free(&g);
+}
+
 // as much in cells of any size and aslant
 TEST(cells_and_headings_do_not_matter)
 {
@@ -171,6 +189,7 @@ TEST(mirrored_to_the_bit)
 int main(void)
 {
     RUN(all_that_it_slides_over_is_cut_and_little_of_it_pressed);
+    RUN(nothing_is_cut_ahead_of_time);
     RUN(cells_and_headings_do_not_matter);
     RUN(who_stands_cuts_nothing);
     RUN(what_only_comes_down_presses);
