@@ -107,7 +107,8 @@ typedef struct DpMapFile
 } DpMapFile;
 
 // Read a flat EXR (scan-line or tiled, half, float or uint channels) of any writer.
-// A damaged or foreign file: DP_BAD_FILE, nothing allocated; images of more than 2^28 pixels too.
+// A damaged or foreign file: DP_BAD_FILE, nothing allocated; images of more than 2^32 pixels, or 2^28 along
+// a side, too.
 // One packed as only a newer OpenEXR can: DP_BAD_PACKING.
 DpStatus dp_maps_read(const char* path, DpMapFile** file);
 void     dp_map_file_destroy(DpMapFile* file);

@@ -119,8 +119,9 @@ DpStatus dp_exr_begin(exr_context_t* context, DpBytes* out, int nx, int ny, bool
                       int note_count, const double* time)
 {
     *context = NULL;
-    if (nx < 1 || ny < 1 || (int64_t)nx * ny > DP_MAPS_PIXELS || channel_count < 1 ||
-        note_count < 0 || (note_count > 0 && !notes))
+    if (nx < 1 || ny < 1 || nx > DP_MAPS_SIDE || ny > DP_MAPS_SIDE ||
+        (int64_t)nx * ny > DP_MAPS_PIXELS || channel_count < 1 || note_count < 0 ||
+        (note_count > 0 && !notes))
         return DP_BAD_ARGUMENT;
     exr_context_initializer_t setup = dp_exr_setup(out);
     setup.write_fn = put_bytes;

@@ -24,8 +24,9 @@ DpStatus dp_file_save(const char* path, const void* data, size_t size);
 // Add a line to a list of files, which is there already: name, how many bytes, and their digest in hexadecimal digits.
 DpStatus dp_list_add(const char* list, const char* path, const void* data, size_t size);
 
-// Most pixels an image may have, written or read.
-#define DP_MAPS_PIXELS (1 << 28)
+// Most pixels an image may have, written or read, and along one side.
+#define DP_MAPS_PIXELS ((int64_t)1 << 32)
+#define DP_MAPS_SIDE (1 << 28)
 
 // How every context of this room starts: memory from base/alloc, not a word to the terminal,
 // `user` for the caller's own functions.

@@ -48,8 +48,8 @@ static DpStatus read_shape(exr_const_context_t context, int64_t file_size, DpMap
     const int64_t nx = (int64_t)window.max.x - window.min.x + 1;
     const int64_t ny = (int64_t)window.max.y - window.min.y + 1;
     const int64_t channels = (*list)->num_channels;
-    if (nx < 1 || ny < 1 || nx > DP_MAPS_PIXELS || ny > DP_MAPS_PIXELS ||
-        nx * ny > DP_MAPS_PIXELS || channels < 1 || channels > 4096)
+    if (nx < 1 || ny < 1 || nx > DP_MAPS_SIDE || ny > DP_MAPS_SIDE || nx * ny > DP_MAPS_PIXELS ||
+        channels < 1 || channels > 4096)
         return DP_BAD_FILE;
     for (int c = 0; c < channels; ++c)
         if ((*list)->entries[c].x_sampling != 1 || (*list)->entries[c].y_sampling != 1)
@@ -222,8 +222,8 @@ static DpStatus read_all(Source* source, DpMapFile* map)
     exr_context_initializer_t setup = dp_exr_setup(source);
     setup.read_fn = read_bytes;
     setup.size_fn = size_of_source;
-    setup.max_image_width = DP_MAPS_PIXELS;
-    setup.max_image_height = DP_MAPS_PIXELS;
+    setup.max_image_width = DP_MAPS_SIDE;
+    setup.max_image_height = DP_MAPS_SIDE;
     setup.max_tile_width = LARGEST_TILE;
     setup.max_tile_height = LARGEST_TILE;
     setup.flags =

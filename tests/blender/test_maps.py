@@ -1,4 +1,4 @@
-"""The maps of a bake as Blender's own image: layers by name, and the bits of the grid, MODEL 11.14."""
+"""The maps of a bake as Blender's own image: layers by name, or a picture, and the bits of the grid, MODEL 11.14."""
 
 import bpy
 import numpy as np
@@ -53,13 +53,25 @@ def layers(image, shape, folder):
 def test_maps_open_as_layers_with_the_bits_of_the_grid(folder):
     scene(folder, frames=12, height=lambda x, y: 0.1 + 0.02 * x)
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
-    for name in ("maps_final", "maps_start"):
-        path = folder / "bake" / f"{name}.exr"
-        grid = maps.read(path).planes
-        image = opened(path)
-        assert image.type == "MULTILAYER", image.type
-        found = layers(image, grid["rest"].shape, folder / name)
-        assert set(found) == set(grid), set(found) ^ set(grid)
-        for layer, plane in grid.items():
-            assert np.array_equal(found[layer], plane, equal_nan=True), (name, layer)
-    assert grid["young_modulus_in"].max() > 1e5
+    path = folder / "bake" / "maps_final.exr"
+    grid = maps.read(path).planes
+    image = opened(path)
+    assert image.type == "MULTILAYER", image.type
+    found = layers(image, grid["rest"].shape, folder / "layers")
+    assert set(found) == set(grid), set(found) ^ set(grid)
+    for layer, plane in grid.items():
+        assert np.array_equal(found[layer], plane, equal_nan=True), layer
+
+
+def test_the_first_map_is_a_picture(folder):
+    """A script has its pixels, which layers have not: R the modulus, G the plants, B what was trodden before."""
+    rig, ground = scene(folder, frames=12)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    path = folder / "bake" / "maps_start.exr"
+    start = maps.read(path)
+    image = opened(path)
+    assert image.type == "IMAGE", image.type
+    pixels = np.array(image.pixels[:], np.float32).reshape(*start.shape, 4)
+    for number, plane in enumerate(("young_modulus_in", "plant_strength_in")):
+        assert np.array_equal(pixels[..., number], start.planes[plane]), plane
+    assert start.planes["young_modulus_in"].max() > 1e5 and not pixels[..., 2].any()

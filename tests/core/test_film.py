@@ -87,3 +87,19 @@ def test_pressure_is_there_while_somebody_stands_and_nowhere_else(trodden, tmp_p
     sim.run(samples - 1)
     sim.settle()
     assert not sim.read("pressure", *window).any()
+
+
+def test_pressure_of_every_step_is_that_of_who_presses_then(trodden, tmp_path):
+    """Where a sole has left, and nothing else changed, its tile is written once more."""
+    sim, samples = trodden
+    film = sim.open_frames(-1, -1, 2, 2)
+    film.open_maps(["pressure"], [("cell", 0.01)])
+    wanted = []
+    for sample in range(samples):
+        sim.run(sample)
+        film.write_maps(tmp_path / f"{sample}.exr", 0.0)
+        wanted.append(sim.read("pressure", -TILE, -TILE, 2 * TILE, 2 * TILE))
+    sim.flush()
+    assert any(each.any() for each in wanted) and not wanted[-1].any()
+    for sample, each in enumerate(wanted):
+        np.testing.assert_array_equal(maps.read(tmp_path / f"{sample}.exr").planes["pressure"], each)

@@ -39,6 +39,21 @@ def test_what_is_written_is_what_is_read(tmp_path, grids):
     assert [entry.name for entry in tmp_path.iterdir()] == ["maps ä.exr"]
 
 
+def test_long_texts_are_written_in_parts_that_a_player_has_room_for(tmp_path):
+    path, grid = tmp_path / "long.exr", np.arange(6, dtype=np.float32).reshape(2, 3)
+    for first in range(5):  # letters of 1, 2, 3 and 4 bytes end parts
+        notes = {"parameters": "." * first + 300 * "aü€\U0001f97e", "full": "f" * 255, "over": "o" * 256, "cell": 1.0}
+        maps.write(path, {"Y": grid}, notes)
+        assert maps.read(path).notes == notes
+        written = dict(_native.maps_read(str(path))[4])
+        sizes = [len(text.encode()) for text in written.values() if isinstance(text, str)]
+        assert max(sizes) == 255 and len(sizes) == 12 + 1 + 2 and written["full"] == "f" * 255
+        shown = subprocess.run(
+            ["ffmpeg", "-v", "error", "-i", str(path), "-f", "rawvideo", "-"], check=True, capture_output=True
+        )
+        assert np.array_equal(np.frombuffer(shown.stdout, np.float32).reshape(2, 3), grid[::-1])
+
+
 def test_maps_are_layers_and_letters_are_channels(tmp_path):
     path, grid = tmp_path / "layers.exr", np.ones((2, 3), np.float32)
     maps.write(path, {"heap": grid, "Y": grid, "depth.Z": grid})

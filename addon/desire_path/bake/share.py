@@ -20,6 +20,7 @@ from ..files import atomic_file, disk
 from ..ground import maps, plant_mesh, spray
 from ..ground.parcels import Parcel
 from ..ground.sim import TILE, Film, Simulation
+from ..ground.trail import LEFT
 from ..loads.force import FootForce
 from ..version import VERSION
 from .atlas import Atlas
@@ -47,6 +48,7 @@ PLANTS = "plants.pc2.part"  # beside the frames: the plants' point cache as it g
 MAP_FILMS = ("second_", "pass_")
 START_PART = "maps_start.exr.first.part"  # beside bake.new until the bake has come to its end
 START = {"young_modulus_in": "Pa", "plant_strength_in": "-"}  # what the first map says besides, and in which unit
+SEEN = {"R": "young_modulus", "G": "plant_strength", "B": "compression"}  # of it as a picture; G and B as in frames
 
 
 class Share:
@@ -228,16 +230,19 @@ class Share:
         def rows(name: str, j: int, count: int) -> np.ndarray:
             return self.sim.read(shown[name], i0, j0 + j, nx, count)
 
-        shown = {maps.PICTURE: "young_modulus", **self._start_fields()}
-        maps.write_rows(path, shown, (ny, nx), rows, [("time", 0.0), *self._start_notes()])
+        shown = self._start_fields()
+        maps.write_rows(path, shown, (ny, nx), rows, [("time", 0.0), *self._start_notes()], layers=False)
 
     def _start_fields(self) -> dict[str, str]:
         """What the first map shows, and whose fields these are."""
+        left = LEFT if self.parcel.ground.trail else ()
         return {
+            **SEEN,
             "young_modulus_in": "young_modulus",
             "plant_strength_in": "plant_strength",
             "plant_strength": "plant_strength",
             "rest": "rest",
+            **{name: name for name in left},
             **({entry.name: entry.name for entry in maps.LEAN} if self.plants else {}),
         }
 
@@ -248,7 +253,7 @@ class Share:
         """The same tile by tile, beside what is made: what has more cells than a picture may have takes no memory."""
         names = self._start_fields()
         film = self.sim.open_frames(*self.tiles, self._pages())
-        film.open_maps(list(names), self._start_notes(), names)
+        film.open_maps(list(names), self._start_notes(), names, layers=False)
         film.write_maps(os.path.join(self.out.folder, START_PART), 0.0)
         self.sim.flush()
 
@@ -361,7 +366,7 @@ class Share:
             ("cell", index["cell"]),
             ("originX", index["x0"]),
             ("originY", index["y0"]),
-            ("parameters", json.dumps(self.plan.parameters(self.parcel))),
+            ("parameters", json.dumps(self.plan.parameters(self.parcel), separators=(",", ":"))),
         ]
         return notes + [(f"unit_{entry.name}", entry.unit) for entry in self.fields()]
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import DesirePathError
 from . import maps
+from . import notes as header
 from .fields import FIELDS, Field
 
 
@@ -28,12 +29,18 @@ class Film:
         self._core, self._fields = core, fields
 
     def open_maps(
-        self, names: Sequence[str], notes: Iterable[tuple[str, str | float]], called: Mapping[str, str] | None = None
+        self,
+        names: Sequence[str],
+        notes: Iterable[tuple[str, str | float]],
+        called: Mapping[str, str] | None = None,
+        layers: bool = True,
     ) -> None:
         """Maps written from now on have these fields, as in Simulation.read(), the first of them as maps.PICTURE, too,
-        and notes (name, text or number). called: other names in the files, and whose fields they show."""
-        shown = [(maps.channel(name), self._fields[(called or {}).get(name, name)].number) for name in names]
-        self._core.open_maps(((maps.PICTURE, shown[0][1]), *shown), tuple(notes))
+        and notes (name, text or number). called: other names in the files, and whose fields they show; layers: False
+        for plain pictures, as of maps.write_rows(), of these names alone."""
+        shown = [(maps.channel(name, layers), self._fields[(called or {}).get(name, name)].number) for name in names]
+        first = ((maps.PICTURE, shown[0][1]),) if layers else ()
+        self._core.open_maps((*first, *shown), tuple(header.parts(notes)))
 
     def list_files(self, path: str | os.PathLike[str]) -> None:
         """Add each file of frames and maps from now on, when it is there, to the list in this file: its name, how many

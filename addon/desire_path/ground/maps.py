@@ -7,7 +7,8 @@
 
 In the file a map is a layer of one channel, `compression.V`: Blender opens layers as they are, and takes
 channels of other names for colours. Here it is called by its layer, so that bare names of other writers
-read alike. `Y` repeats a file's first map for programs that know no layers, as ffmpeg.
+read alike. `Y` repeats a file's first map for programs that know no layers, as ffmpeg. A file without layers is a
+picture, `R`, `G` and `B`: what Blender opens as layers has no pixels for scripts.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from ..core import _native
 from ..errors import DesirePathError
 from ..files import atomic_file
 from . import fields
+from . import notes as header
 from .fields import FIELDS
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Map(NamedTuple):
     meaning: str
 
 
-MAX_CELLS = 1 << 28  # of one file, as native/maps has it
+MAX_CELLS = 1 << 32  # of one file, as native/maps has it
 LAYER = ".V"  # the one channel of a layer, as Blender calls a value
 ROWS: int = _native.TILE  # of planes that are written some at a time
 PICTURE = "Y"  # the channel that every program shows, grey
@@ -55,9 +57,10 @@ GROUND = _maps("rest", "pressure")  # beside them: what another bake goes on fro
 LEAN = _maps(*fields.LEAN)  # beside them where plants grow
 
 
-def channel(name: str) -> str:
-    """What a map is called in a file; letters (R, Y ..) and names with a layer are channels already."""
-    return name if len(name) < 2 or "." in name else name + LAYER
+def channel(name: str, layers: bool = True) -> str:
+    """What a map is called in a file; letters (R, Y ..) and names with a layer are channels already, and where there
+    are no layers all names are."""
+    return name if len(name) < 2 or "." in name or not layers else name + LAYER
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,7 +83,8 @@ def write(
     """Write planes to one file, whole or not at all; an old file stays when this fails.
 
     planes: dict of name -> (ny, nx) array, all of one shape.
-    notes: dict, or list of (name, text or number), for the file's header.
+    notes: dict, or list of (name, text or number), for the file's header; a text of over 255 bytes is written in parts
+        `name`, `name_2` .., which read() joins: FFmpeg 5 loses its way in longer ones.
     """
     path = os.fspath(path)
     if not planes:
@@ -100,10 +104,12 @@ def write_rows(
     shape: tuple[int, int],
     rows: Callable[[str, int, int], np.ndarray],
     notes: Mapping[str, str | float] | Iterable[tuple[str, str | float]] = (),
+    layers: bool = True,
 ) -> None:
     """The same of planes that are never in memory as a whole.
 
     shape: (ny, nx); rows(name, j, count): float32 (count, nx) of a plane from its row j on
+    layers: False for a plain picture: no name becomes a layer, and R, G and B are seen
     """
     ny, nx = shape
     grids = {name: np.zeros((ROWS, nx), np.float32) for name in names}
@@ -113,30 +119,30 @@ def write_rows(
         for name, grid in grids.items():
             grid[first - j : after - j] = rows(name, first, after - first)
 
-    _write(os.fspath(path), grids, notes, fill, ny)
+    _write(os.fspath(path), grids, notes, layers, fill, ny)
 
 
 def _write(
     path: str,
     grids: Mapping[str, np.ndarray],
     notes: Mapping[str, str | float] | Iterable[tuple[str, str | float]],
+    layers: bool = True,
     *rows: Any,
 ) -> None:
     if len({grid.shape for grid in grids.values()}) > 1:
         shapes = ", ".join(f"{name} {grid.shape}" for name, grid in grids.items())
         raise DesirePathError(f"The maps for {path} differ in shape ({shapes}): give all the same.")
-    said = notes.items() if isinstance(notes, Mapping) else notes
-    pairs = [(name, value if isinstance(value, str) else float(value)) for name, value in said]
+    pairs = header.parts(notes)
     atomic_file.check(path, "The maps")
     try:
-        _native.maps_write(path, [channel(name) for name in grids], list(grids.values()), pairs, *rows)
+        _native.maps_write(path, [channel(name, layers) for name in grids], list(grids.values()), pairs, *rows)
     except OSError as problem:
         raise DesirePathError(
             f"{path} cannot be written ({_clause(problem)}): make room or choose another folder."
         ) from None
     except ValueError as problem:
         raise DesirePathError(
-            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^28"
+            f"{path} cannot be written ({_clause(problem)}): give up to 64 maps of at most 2^32"
             " cells, and maps and notes with different names of 1 to 29 characters that OpenEXR"
             " does not use itself."
         ) from None
@@ -158,7 +164,7 @@ def read(path: str | os.PathLike[str]) -> Picture:
             f"{path} is damaged or no flat OpenEXR image: write it again, or choose another file."
         ) from None
     grids = np.frombuffer(data, np.float32).reshape(len(names), ny, nx)
-    return Picture({name.removesuffix(LAYER): grid for name, grid in zip(names, grids)}, dict(notes))
+    return Picture({name.removesuffix(LAYER): grid for name, grid in zip(names, grids)}, header.joined(notes))
 
 
 def _clause(problem: Exception) -> str:

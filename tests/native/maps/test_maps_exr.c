@@ -60,7 +60,9 @@ TEST(bad_arguments_are_refused)
     const DpNote       taken = {"dataWindow", NULL, 1.0}, same[] = {{"a", "1", 0}, {"a", "2", 0}};
     CHECK(dp_maps_write(path, 0, NY, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_maps_write(path, NX, -1, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
-    CHECK(dp_maps_write(path, 1 << 15, 1 << 14, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_maps_write(path, 1 << 17, (1 << 15) + 1, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_maps_write(path, (1 << 28) + 1, 1, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
+    CHECK(dp_maps_write(path, 1, (1 << 28) + 1, &good, 1, NULL, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_maps_write(path, NX, NY, &good, 0, NULL, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_maps_write(path, NX, NY, NULL, 1, NULL, 0) == DP_BAD_ARGUMENT);
     CHECK(dp_maps_write(path, NX, NY, &nameless, 1, NULL, 0) == DP_BAD_ARGUMENT);

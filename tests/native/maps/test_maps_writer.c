@@ -143,12 +143,49 @@ TEST(nothing_is_written_after_a_failure_until_it_was_told)
     dp_frames_destroy(frames);
 }
 
+// whatever there is no memory for: where all went well the tile is there, in the file that is written next
+TEST(a_tile_that_could_not_be_packed_is_told)
+{
+    const char* path = world_path("tight.exr");
+    int         refused = 0, written = 0;
+    for (int tries = 0; tries < 500 && !written; ++tries) {
+        DpFrames*   frames;
+        DpWriter*   writer;
+        const char* failed;
+        CHECK(dp_frames_create(&frames, 1, 1, RGBA, 4, NULL, 0) == DP_OK);
+        CHECK(dp_writer_create(&writer, 1) == DP_OK);
+        DpTiles* tiles = dp_writer_tiles(writer, frames);
+        paint(dp_tiles_add(tiles, 0, 0), 4);
+        dp_alloc_fail_after(tries);
+        DpStatus       status = dp_writer_give(writer, tiles, NULL, 0.0);
+        const DpStatus outcome = dp_writer_outcome(writer, true, &failed);
+        dp_alloc_fail_after(-1);
+        if (status == DP_OK) status = outcome;
+        if (status == DP_OK) {
+            DpMapFile* map = NULL;
+            CHECK(dp_frames_write(frames, path, 0.0) == DP_OK);
+            CHECK(dp_maps_read(path, &map) == DP_OK);
+            CHECK(map && map->value[0] == 15.0f);  // of channel A
+            dp_map_file_destroy(map);
+            remove(path);
+            written = 1;
+        } else {
+            CHECK(status == DP_NO_MEMORY);
+            ++refused;
+        }
+        dp_writer_destroy(writer);
+        dp_frames_destroy(frames);
+    }
+    CHECK(written && refused > 0);
+}
+
 int main(void)
 {
     RUN(the_same_files_in_the_background);
     RUN(a_flood_of_tiles_is_one_file);
     RUN(no_more_waits_than_memory_bears);
     RUN(nothing_is_written_after_a_failure_until_it_was_told);
+    RUN(a_tile_that_could_not_be_packed_is_told);
     world_end();
     return check_done();
 }
