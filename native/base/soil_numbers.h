@@ -35,4 +35,6 @@
     X(adhesion, "m", 0.0, 0.05, 0.0, "how thick it sticks to a sole that lifts; 0 = not at all")   \
     X(release_pressure, "Pa", 1.0, 1e9, 1.5e5, "p0, under which 63 % of what sticks is left")      \
     X(water_depth, "m", 0.0, 100.0, 0.0,                                                           \
-      "w, of water that stands below the ground as it lay, and is shown in prints; 0 = none")
+      "w, of water that stands below the ground as it lay, and is shown in prints; 0 = none")      \
+    X(flow_shear, "m", 0.0, 1.0, 0.0,                                                              \
+      "K_f, shear before it flows off ahead of a sole that slides; 0 = at once")

@@ -144,6 +144,8 @@ typedef struct DpSlide
     double at[2];                      // along x and y [m]
     double by_x[2], by_y[2], by_z[2];  // [m per m]
     double owed;  // what it has slid over and not cut yet, since columns are covered by leaps [m^3]
+    double
+        held;  // share of what it meets that only shears along with it and does not flow yet  0..1
 } DpSlide;
 
 // A limb's sole over a patch: its lower envelope, one column per cell, and the rings around it.

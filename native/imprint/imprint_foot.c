@@ -193,13 +193,17 @@ DP_CLONES static void mean_row(const DpSamples* window, const float* low, int ce
     }
 }
 
+DP_CLONES static void no_sole_in_row(float* restrict bottom, float* restrict cover, int width)
+{
+    for (int i = 0; i < width; ++i) bottom[i] = INFINITY;
+    for (int i = 0; i < width; ++i) cover[i] = 0.0f;
+}
+
 static void no_sole(DpImprint* imprint, const DpSoilPatch* patch)
 {
     for (int j = 0; j < patch->ny; ++j) {
-        float* bottom = imprint->bottom + (size_t)j * (size_t)patch->row;
-        float* cover = imprint->cover + (size_t)j * (size_t)patch->row;
-        for (int i = 0; i < patch->nx; ++i) bottom[i] = INFINITY;
-        for (int i = 0; i < patch->nx; ++i) cover[i] = 0.0f;
+        const size_t at = (size_t)j * (size_t)patch->row;
+        no_sole_in_row(imprint->bottom + at, imprint->cover + at, patch->nx);
     }
     imprint->i0 = imprint->i1 = imprint->j0 = imprint->j1 = 0;
 }

@@ -1,9 +1,7 @@
 // imprint/imprint_raster.h - triangles on a grid of samples, lowest height kept. Inside the room.
 #pragma once
+#include "base/inline.h"
 #include "base/types.h"
-
-// lives inside the clone that calls it
-#define DP_INLINE static inline __attribute__((always_inline))
 
 // A window on the grid of samples about a patch. Sample (p, q) of the whole grid sits at
 // (2 p - past_u, 2 q - past_v) in units of half the distance of two samples, from the patch's

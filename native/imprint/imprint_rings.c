@@ -7,18 +7,24 @@
 #include "imprint/imprint.h"
 #include "imprint/imprint_raster.h"
 
+// are any cells of a row touched? Every other one becomes far
+DP_CLONES static int any_touched(int32_t* row, int width)
+{
+    int any = 0;
+    for (int i = 0; i < width; ++i) {
+        any |= row[i] == 0;
+        row[i] = row[i] == 0 ? 0 : DP_RING_FAR;
+    }
+    return any;
+}
+
 // the rectangle about the touched cells; every other cell becomes far
 static DpCellRect touched_box(int32_t* ring, const DpSoilPatch* patch)
 {
     DpCellRect box = {patch->nx, 0, patch->ny, 0};
     for (int j = 0; j < patch->ny; ++j) {
         int32_t* row = ring + (size_t)j * (size_t)patch->row;
-        int      any = 0;
-        for (int i = 0; i < patch->nx; ++i) {
-            any |= row[i] == 0;
-            row[i] = row[i] == 0 ? 0 : DP_RING_FAR;
-        }
-        if (!any) continue;
+        if (!any_touched(row, patch->nx)) continue;
         int first = 0, last = patch->nx;
         while (row[first] != 0) ++first;
         while (row[last - 1] != 0) --last;

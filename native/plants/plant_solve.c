@@ -4,6 +4,7 @@
 // XPBD with one pass a sub-step: a correction is C / (sum of weights + compliance / h^2), so
 // stiffness depends neither on passes nor on the time step. Lanes are plants: all do the same sums
 // in the same order, in narrow or wide registers.
+#include "base/inline.h"
 #include "base/wide.h"
 
 #include "plants/plant_inside.h"
@@ -16,20 +17,14 @@
 #define LANES for (int l = 0; l < DP_LANES; ++l)
 #endif
 
-#if defined(__GNUC__)
-#define INLINE static inline __attribute__((always_inline))
-#else
-#define INLINE static inline
-#endif
-
 #define BEYOND 1.02f  // edges between stems are hard when longer than this
 #define LAST_PASSES 16
 #define STICK 0.95f  // what is limp slides by no more than the rest of its way over the ground
 #define TINY 1e-18f  // squared length of what has none [m^2]
 
 // let particles go on as they moved; where they were is kept
-INLINE void go_on(float* restrict at, float* restrict speed, float* restrict before, float keep,
-                  float h)
+DP_INLINE void go_on(float* restrict at, float* restrict speed, float* restrict before, float keep,
+                     float h)
 {
     LANES
     {
@@ -40,8 +35,8 @@ INLINE void go_on(float* restrict at, float* restrict speed, float* restrict bef
 }
 
 // three particles of a stem turn back to their rest bend. TRAIL (5), C_b
-INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
-                   const float* restrict give, const float* restrict rest, float w0, float w1)
+DP_INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
+                      const float* restrict give, const float* restrict rest, float w0, float w1)
 {
     LANES
     {
@@ -53,9 +48,9 @@ INLINE void unbend(float* restrict x0, float* restrict x1, float* restrict x2,
 }
 
 // two particles come to their distance: softly, and hard when far beyond it. TRAIL (5), C_s
-INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, float* restrict bx,
-                 float* restrict by, float* restrict bz, const PlantEdge*        edge,
-                 const float* restrict rest, const float* restrict joined, float soft)
+DP_INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, float* restrict bx,
+                    float* restrict by, float* restrict bz, const PlantEdge*        edge,
+                    const float* restrict rest, const float* restrict joined, float soft)
 {
     const float wa = edge->share_a, wb = edge->share_b;
     LANES
@@ -71,9 +66,9 @@ INLINE void pull(float* restrict ax, float* restrict ay, float* restrict az, flo
 }
 
 // the same for a stem, which keeps its length
-INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az,
-                      float* restrict bx, float* restrict by, float* restrict bz,
-                      const PlantEdge* edge)
+DP_INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az,
+                         float* restrict bx, float* restrict by, float* restrict bz,
+                         const PlantEdge* edge)
 {
     const float rest = edge->rest, wa = edge->share_a, wb = edge->share_b;
     LANES
@@ -87,10 +82,10 @@ INLINE void pull_stem(float* restrict ax, float* restrict ay, float* restrict az
 
 // the ground under a particle as a step's end saw it, or the plane a plant stands on. What is limp
 // sticks to it.
-INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
-                       const float* restrict was_x, const float* restrict was_y,
-                       const float* restrict limp, const float* restrict floor,
-                       const PlantBlock* block)
+DP_INLINE void stay_above(float* restrict x, float* restrict y, float* restrict z,
+                          const float* restrict was_x, const float* restrict was_y,
+                          const float* restrict limp, const float* restrict floor,
+                          const PlantBlock* block)
 {
     LANES
     {
@@ -225,8 +220,8 @@ static void substep(const PlantStand* stand, PlantBlock* block, const float* giv
 
 // rows come together, except under soles, who see to that themselves; how far the most stretched of
 // them was beyond its length, 1 = not at all
-INLINE float shorten_rows(const PlantStand* stand, PlantBlock* block, const float* length,
-                          const float* open)
+DP_INLINE float shorten_rows(const PlantStand* stand, PlantBlock* block, const float* length,
+                             const float* open)
 {
     const int rows = stand->shape.rows;
     float *   x = block->state->at[0], *y = block->state->at[1], *z = block->state->at[2];
@@ -255,7 +250,7 @@ INLINE float shorten_rows(const PlantStand* stand, PlantBlock* block, const floa
 }
 
 // from the foot upward, no stem is longer than it may be
-INLINE void shorten_stems(const PlantStand* stand, PlantBlock* block)
+DP_INLINE void shorten_stems(const PlantStand* stand, PlantBlock* block)
 {
     const float max = DP_MAX_STRETCH * stand->gap;
     for (int p = 0; p < stand->shape.particles; ++p) {

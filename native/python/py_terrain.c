@@ -214,7 +214,7 @@ PyObject* dp_py_lay(PyObject* object, PyObject* args)
 {
     Simulation* self = (Simulation*)object;
     PyObject*   grid[3];
-    DpTrail     trail = {0};
+    DpTrail     trail = {.as_left = dp_soil_spring_trodden};
     if (!PyArg_ParseTuple(args, "llOOO:lay", &trail.i0, &trail.j0, &grid[0], &grid[1], &grid[2]))
         return NULL;
     DpBuffers buffers = {.count = 0};

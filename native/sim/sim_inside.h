@@ -4,6 +4,13 @@
 #include "imprint/imprint.h"
 #include "sim/sim.h"
 
+// How far the ground around a sole has sheared along with it, to first order around a place, MODEL 6.18.
+typedef struct Shear
+{
+    DpVec3 place;
+    double field[6];  // along x and y there [m], and how much more a metre along x, and along y
+} Shear;
+
 // One limb and the stance it is in.
 typedef struct Limb
 {
@@ -23,6 +30,7 @@ typedef struct Limb
     double       sink;         // how far its soles stand below where they were recorded     [m]
     DpVec3       slip;         // how far its soles have slipped along the ground in this stance [m]
     DpVec3       sheared;  // of that, what the soil carries the push with as it is now       [m]
+    Shear        shear;    // of what its soles slide into, that does not flow yet
     double       lowered;  // the same as plants saw it at the end of the last step      [m]
     DpCellRect   trodden;  // cells its patches covered during this stance
     float*       met;      // `uniform`: heap - compression on `met_at` as this stance met them [m]
@@ -287,6 +295,12 @@ DpStatus dp_limb_lay(const DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScr
 bool dp_limb_slides(const DpSim* sim, const Limb* limb, const DpSoilPatch* patch, int sample,
                     double w0, double w1, DpVec3 slipped, DpSlide* slide);
 void dp_plough_count(Limb* limb, const DpPressed* pressed);
+
+// .. how much of that slide the soil at `place` shears along with, which goes to slide->held; whether some of it flows
+bool dp_limb_shears(Limb* limb, const DpSoilPatch* patch, const DpSoil* soil, DpVec3 place,
+                    DpSlide* slide);
+void dp_shear_save(DpStateWriter* writer, const Shear* shear);  // as a part of a limb's state
+void dp_shear_load(DpStateReader* reader, Shear* shear);
 
 #define DP_CARVE_STEPS 128  // poses of a body between two samples, at most
 

@@ -75,6 +75,7 @@ static void plan_limb(DpSim* sim, Limb* limb, int sample)
         limb->heap_height = limb->owed = 0.0;
         limb->ploughs = false;
         limb->slip = limb->sheared = dp_vec3(0.0, 0.0, 0.0);
+        limb->shear = (Shear){.field = {0.0}};
         limb->margin = carves ? HEAP_MARGIN : least_margin(limb);
         if (!limb->flows) limb->trodden = (DpCellRect){0, 0, 0, 0};  // else it slides on afterwards
         limb->met_at = (DpCellRect){0, 0, 0, 0};

@@ -97,10 +97,12 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
                                       limb->part_count, limb->samples, scratch->imprint_scratch);
     if (status != DP_OK) return status;
 
-    DpSlide    slide;
-    const bool slides =
+    DpSlide       slide;
+    const DpSoil* soil = soil_under(patch, foot.point);
+    const bool    slides =
         dp_limb_slides(sim, limb, patch, sample, (double)step.number / step.count,
-                       (step.number + 1.0) / step.count, dp_sub(limb->slip, before), &slide);
+                       (step.number + 1.0) / step.count, dp_sub(limb->slip, before), &slide) &&
+        dp_limb_shears(limb, patch, soil, foot.point, &slide);
     DpPressed pressed;
     scratch->imprint.slide = slides ? &slide : NULL;
     status = dp_soil_compress(patch, &scratch->imprint, &foot, limb->law, dt, &pressed);
@@ -121,11 +123,10 @@ static DpStatus press(DpSim* sim, Limb* limb, DpSoilPatch* patch, WorkerScratch*
     status = dp_limb_carry(sim, limb, patch, scratch, limb->part_count);
     if (status != DP_OK) return status;
 
-    const DpSoil* soil = soil_under(patch, foot.point);
-    const double  half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
-    const double  volume = pressed.displaced + pressed.cut_firm + pressed.cut_loose;
-    const DpVec3  cut = volume > 0.0 ? dp_vec3(pressed.cut_x / volume, pressed.cut_y / volume, 0.0)
-                                     : dp_vec3(0.0, 0.0, 0.0);
+    const double half_weight = 0.5 * sim->cast.mass[limb->walker] * DP_GRAVITY;  // TRAIL (13)
+    const double volume = pressed.displaced + pressed.cut_firm + pressed.cut_loose;
+    const DpVec3 cut = volume > 0.0 ? dp_vec3(pressed.cut_x / volume, pressed.cut_y / volume, 0.0)
+                                    : dp_vec3(0.0, 0.0, 0.0);
     return dp_limb_lay(sim, limb, patch, scratch, &foot, volume,
                        soil->push_threshold > 0.0f ? (double)soil->push_threshold : half_weight,
                        cut);

@@ -48,6 +48,7 @@ typedef struct DpPressed
     double cut_firm;      // of a sole that slides: firm volume that was in its way [m^3] >= 0
     double cut_loose;     // .. and loose, to be laid down ahead with what was firm [m^3] >= 0
     double cut_x, cut_y;  // .. both, times the direction in which the sole goes there [m^3]
+    int    rounds;        // sinks that were tried until the ground carried the load   [-]   >= 0
 } DpPressed;
 
 // What a soil presses back with is E/L0 times its depth, or by its snow_density or Bekker's numbers, MODEL 6.14.
@@ -86,6 +87,10 @@ DpStatus dp_soil_carve(DpSoilPatch* patch, DpImprint* imprint, const DpDescent* 
 // Where no sole stands any more, a share of the depth comes back; imprint as the step left it, NULL: nobody stands.
 // Changes compression and spring. @return the volume that has come back [m^3] >= 0
 double dp_soil_rebound(DpSoilPatch* patch, const DpImprint* imprint);
+
+// A patch that was trodden before, and nobody knows by whom: what is pressed is what a sole left whose ground has come
+// back. Changes spring only.
+void dp_soil_spring_trodden(DpSoilPatch* patch);
 
 // How far from a sole a piece of a crust that it breaks can reach; 0 without a crust [m]
 double dp_soil_crust_margin(const DpSoil* soil);

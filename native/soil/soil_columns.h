@@ -57,6 +57,23 @@ typedef struct Target
 } Target;
 void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed);
 
+// targets of several cells, none of them twice
+typedef struct Targets
+{
+    double depth[LANES], stress[LANES], share[LANES];  // as above
+    size_t cell[LANES];                                // where in the patch
+    int    count;
+} Targets;
+void dp_press_cells(DpSoilPatch* patch, const Targets* targets, double dt, DpPressed* pressed);
+
+// a cell's target after those there are
+static inline void add_target(Targets* targets, size_t cell, Target target)
+{
+    const int k = targets->count++;
+    targets->depth[k] = target.depth, targets->stress[k] = target.stress;
+    targets->share[k] = target.share, targets->cell[k] = cell;
+}
+
 // soil_cut.c: take loose and firm soil [m] off a column, a share `cut` of it as by a blade, the rest pressed; sums are in
 // [m] of columns
 typedef struct Cut
@@ -74,7 +91,7 @@ typedef enum Turn
     PRESSES
 } Turn;
 Turn dp_plough_begin(const DpSoilPatch* patch, DpImprint* imprint);
-void dp_plough_press(DpSoilPatch* patch, DpImprint* imprint, size_t p, Target target, Turn turn,
+void dp_plough_press(DpSoilPatch* patch, DpImprint* imprint, const Targets* targets, Turn turn,
                      double dt, DpPressed* pressed);
 void dp_plough(DpSoilPatch* patch, const DpImprint* imprint, DpPressed* pressed);
 

@@ -35,6 +35,7 @@ typedef struct Balance
 {
     double load;                    // N                                        [N]
     double force_grid, slope_grid;  // for soil_on_grid
+    int    rounds;                  // sinks tried so far
     double highest;                 // largest gap                              [m]
     double springs;                 // of all columns                           [N/m]
     double hanging;                 // their forces if the sole hung at its highest gap [N]
@@ -122,15 +123,14 @@ static inline double lone_target(double load, double spring, double rigid)
     return x > rigid ? rigid + (x - rigid) / RIGID_STIFFER : x;
 }
 
-// the least sink at which some column carries the load alone
-static double lone_sink(const Columns* columns, double load)
+// the least sink at which some column of each lane carries the load alone; lanes that hold none never do
+DP_CLONES
+static void lone_sinks(const Columns* columns, double load, double* restrict lowest)
 {
-    double lowest = INFINITY;
-    for (int k = 0; k < columns->count; ++k) {
+    for (int k = 0; k < LANES; ++k) {
         const double target = lone_target(load, columns->spring[k], columns->rigid[k]);
-        lowest = soil_min(lowest, target - columns->gap[k]);
+        lowest[k] = soil_min(lowest[k], target - columns->gap[k]);
     }
-    return lowest;
 }
 
 // look at all columns: scales of the sums, and a first guess; false if there are none
@@ -165,24 +165,27 @@ static bool weigh(Balance* balance, Sole* sole, double load)
 }
 
 // The sink s at which the columns carry the load, by Newton. Their force is convex in s, so from above
-// every step stays above. Above the sink at which one column alone carries it s cannot lie, and up to
-// there no column pushes back by more than the load, as the grid of their sum wants it.
+// every step stays above and goes down: one that does not has come to what the grid of the sum rounds, more
+// of the load the more columns there are. Above the sink at which one column alone carries it s cannot lie,
+// and up to there no column pushes back by more than the load, as the grid wants it.
 static double sink_of(Sole* sole, Balance* balance, Answer* found)
 {
     const double load = balance->load;
-    double       max_sink = INFINITY;
+    double       max_sink = INFINITY, lowest[LANES];
+    for (int k = 0; k < LANES; ++k) lowest[k] = INFINITY;
     for (dp_columns_rewind(sole); dp_columns_next(sole);)
-        for (int c = 0; c < sole->filled; ++c)
-            max_sink = soil_min(max_sink, lone_sink(&sole->chunk[c], load));
+        for (int c = 0; c < sole->filled; ++c) lone_sinks(&sole->chunk[c], load, lowest);
+    for (int k = 0; k < LANES; ++k) max_sink = soil_min(max_sink, lowest[k]);
     balance->force_grid = soil_grid(load);
     // if all columns carried
     double s = soil_min((load + balance->hanging) / balance->springs - balance->highest, max_sink);
     for (int round = 0; round < MAX_ROUNDS; ++round) {
         *found = answer(sole, balance, s);
+        ++balance->rounds;
         const double missing = load - found->force;
         if (fabs(missing) <= 2e-9 * load || !(found->slope > 0.0)) break;
         const double next = soil_min(s + missing / found->slope, max_sink);
-        if (fabs(next - s) < 1e-15 * fabs(s)) break;
+        if (round > 0 && !(next < s)) break;
         s = next;
     }
     return s;
@@ -195,20 +198,31 @@ static double min_area(const Sole* sole, const Balance* balance)
     return soil_min(soil_max(FLOOR_CELLS * area, FLOOR_SHARE * balance->sole), balance->sole);
 }
 
+// the targets of columns sunk by s, and the stress on them: 0 where they carry nothing
+DP_CLONES
+static void sink_springs(const Columns* columns, double s, double area, double* restrict depth,
+                         double* restrict stress)
+{
+    for (int k = 0; k < LANES; ++k) {
+        const double t = columns->gap[k] + s, rigid = columns->rigid[k];
+        const double share = columns->share[k];
+        depth[k] = soil_min(t, rigid);
+        stress[k] = columns->spring[k] * spring_length(t, rigid) / (share * area + 1e-300);
+    }
+}
+
 // press the columns that carry, sunk by s
 static void press_springs(DpSoilPatch* patch, DpImprint* imprint, const Columns* columns, double s,
                           Turn turn, double dt, DpPressed* pressed)
 {
-    const double area = patch->cell * patch->cell;
-    for (int k = 0; k < columns->count; ++k) {
-        const double t = columns->gap[k] + s, rigid = columns->rigid[k];
-        const double x = spring_length(t, rigid);
-        const size_t p = columns->cell[k];
-        if (x <= 0.0 || p == NOWHERE) continue;
-        const double stress = columns->spring[k] * x / (columns->share[k] * area);
-        const Target target = {soil_min(t, rigid), stress, columns->share[k]};
-        dp_plough_press(patch, imprint, p, target, turn, dt, pressed);
-    }
+    double  depth[LANES], stress[LANES];
+    Targets targets = {.count = 0};
+    sink_springs(columns, s, patch->cell * patch->cell, depth, stress);
+    for (int k = 0; k < columns->count; ++k)
+        if (depth[k] > 0.0 && columns->cell[k] != NOWHERE)
+            add_target(&targets, columns->cell[k],
+                       (Target){depth[k], stress[k], columns->share[k]});
+    dp_plough_press(patch, imprint, &targets, turn, dt, pressed);
 }
 
 // `sole`: balance, then press what carries
@@ -224,6 +238,7 @@ static void press_sole(DpSoilPatch* patch, DpImprint* imprint, Sole* sole, Balan
     }
     pressed->sink = s;
     pressed->area = found.area;
+    pressed->rounds = balance->rounds;
     for (Turn turn = dp_plough_begin(patch, imprint); turn <= PRESSES; ++turn) {
         for (dp_columns_rewind(sole); dp_columns_next(sole);)
             for (int c = 0; c < sole->filled; ++c)
@@ -253,14 +268,15 @@ static double uniform_depth(const DpSoilPatch* patch, size_t p, double stress, d
 static void press_evenly(DpSoilPatch* patch, DpImprint* imprint, const Columns* columns,
                          double stress, double width, Turn turn, double dt, DpPressed* pressed)
 {
+    Targets targets = {.count = 0};
     for (int k = 0; k < columns->count; ++k) {
         const size_t p = columns->cell[k];
         if (p == NOWHERE || imprint->ring[p] != 0) continue;
         const double rigid = columns->rigid[k];
-        const double depth = uniform_depth(patch, p, stress, rigid, width);
-        const Target target = {soil_min(depth, rigid), stress, columns->share[k]};
-        dp_plough_press(patch, imprint, p, target, turn, dt, pressed);  // SOFT22 (10)
+        const double depth = uniform_depth(patch, p, stress, rigid, width);  // SOFT22 (10)
+        add_target(&targets, p, (Target){soil_min(depth, rigid), stress, columns->share[k]});
     }
+    dp_plough_press(patch, imprint, &targets, turn, dt, pressed);
 }
 
 // `uniform`: the sole is lowered until it touches; cells near its lowest one share the load evenly
@@ -296,6 +312,12 @@ static void press_uniform(DpSoilPatch* patch, DpImprint* imprint, Sole* sole,
     pressed->area = area;
 }
 
+DP_CLONES
+static void all_far(int32_t* ring, int count)
+{
+    for (int i = 0; i < count; ++i) ring[i] = DP_RING_FAR;
+}
+
 DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootForce* foot,
                           DpContactLaw law, double dt, DpPressed* pressed)
 {
@@ -306,10 +328,7 @@ DpStatus dp_soil_compress(DpSoilPatch* patch, DpImprint* imprint, const DpFootFo
     if (!isfinite(load)) return DP_BAD_ARGUMENT;
 
     memset(pressed, 0, sizeof *pressed);
-    for (int j = 0; j < patch->ny; ++j) {
-        int32_t* ring = imprint->ring + soil_at(patch, 0, j);
-        for (int i = 0; i < patch->nx; ++i) ring[i] = DP_RING_FAR;
-    }
+    for (int j = 0; j < patch->ny; ++j) all_far(imprint->ring + soil_at(patch, 0, j), patch->nx);
     Sole sole;
     dp_columns_begin(&sole, patch, imprint, foot->normal);
     Balance balance = {0};

@@ -129,18 +129,26 @@ static double top_of(const Apex* apex, double height)
     return apex->root * (height - apex->spills * lower);
 }
 
-Laid dp_heap_fill(const Heap* heap, double height)
+DP_CLONES
+static void put_cones(const Heap* heap, double height)
 {
     const Window* window = &heap->window;
-    const size_t  cells = (size_t)window->row * (size_t)(window->ny + 2);
-    for (size_t k = 0; k < cells; ++k) window->fill[k] = NOTHING;
+    const double  steps = 1.0 / heap->step;  // a power of two: exact
     for (int k = 0; k < heap->apex_count; ++k) {
         const Apex*  apex = &heap->apex[k];
-        const double top = (apex->ground - heap->level + top_of(apex, height)) / heap->step -
+        const double top = (apex->ground - heap->level + top_of(apex, height)) * steps -
                            apex->away * (double)heap->straight;
         row_of(window, window->fill, apex->j - window->j0)[apex->i - window->i0] =
             (int32_t)floor(top + 0.5);
     }
+}
+
+Laid dp_heap_fill(const Heap* heap, double height)
+{
+    const Window* window = &heap->window;
+    const size_t  cells = (size_t)window->row * (size_t)(window->ny + 2);
+    dp_heap_flat(window->fill, cells, NOTHING);
+    put_cones(heap, height);
     spread(heap);
     Laid laid = {0, 0};
     for (int j = 0; j < window->ny; ++j)

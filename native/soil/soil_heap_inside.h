@@ -59,6 +59,9 @@ static inline int32_t* row_of(const Window* window, int32_t* grid, int j)
 // not fit the steps.
 bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box);
 
+// A grid of one height in all cells [steps].
+void dp_heap_flat(int32_t* grid, size_t cells, int32_t height);
+
 // Lay cones of height T sqrt(omega), lower beside the sides of what is pushed ahead, and measure
 // what lies over the present surface.
 Laid dp_heap_fill(const Heap* heap, double height);

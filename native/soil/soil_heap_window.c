@@ -46,6 +46,17 @@ static void find_turns(int32_t* turn, const int32_t* surface, int count)
     }
 }
 
+DP_CLONES
+static void flat(int32_t* grid, size_t cells, int32_t height)
+{
+    for (size_t k = 0; k < cells; ++k) grid[k] = height;
+}
+
+void dp_heap_flat(int32_t* grid, size_t cells, int32_t height)
+{
+    flat(grid, cells, height);
+}
+
 bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box)
 {
     DpSoilPatch* patch = heap->patch;
@@ -74,7 +85,7 @@ bool dp_heap_open(Heap* heap, double height, double slope, DpCellRect box)
     heap->diagonal = (int32_t)floor(slope * patch->cell * sqrt(2.0) / heap->step + 0.5);
 
     const size_t cells = (size_t)window->row * (size_t)(window->ny + 2);
-    for (size_t k = 0; k < cells; ++k) window->surface[k] = WALL;
+    dp_heap_flat(window->surface, cells, WALL);
     const double steps = 1.0 / heap->step;  // a power of two: exact
     for (int j = 0; j < window->ny; ++j) {
         const size_t p = soil_at(patch, window->i0, window->j0 + j);

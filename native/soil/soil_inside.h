@@ -11,9 +11,10 @@
 #define MAX_SPRING 0.9    // of the depth comes back at most
 
 // soil_rebound.c, of a patch that has springs: a cell was pressed from compression `before` [m] to what it is now, and how
-// much of that had come back before [m]; the share of its depth that comes back.
+// much of that had come back before [m]; the share of its depth that comes back; `fell` [m] of it have fallen from a wall.
 double dp_soil_spring_press(DpSoilPatch* patch, size_t p, double before);
 double dp_soil_spring_share(const DpSoilPatch* patch, size_t p);
+void   dp_soil_spring_fell(DpSoilPatch* patch, size_t p, double fell);
 
 struct DpSoilScratch
 {

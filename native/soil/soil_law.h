@@ -17,6 +17,9 @@ double dp_law_depth(const DpSoil* soil, double width, double pressure);
 double dp_law_kind_pressure(const DpSoilPatch* patch, int kind, double width, double depth);
 double dp_law_kind_depth(const DpSoilPatch* patch, int kind, double width, double pressure);
 
+// .. whether what was pressed carries nothing above that depth, as measured ground does; springs always press back
+bool dp_law_unloads(const DpSoilPatch* patch, int kind);
+
 // .. nu of a cell that is pressed from one depth to another: of its layers, by what each of them yields.
 double dp_law_poisson(const DpSoilPatch* patch, size_t p, double before, double after);
 

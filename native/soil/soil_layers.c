@@ -96,6 +96,15 @@ double dp_law_kind_depth(const DpSoilPatch* patch, int kind, double width, doubl
                   : dp_law_depth(&patch->soils[kind], width, pressure);
 }
 
+bool dp_law_unloads(const DpSoilPatch* patch, int kind)
+{
+    int            count;
+    const DpLayer* layers = layers_of(patch, kind, &count);
+    for (int k = 0; layers && k < count; ++k)
+        if (dp_law_own(&layers[k].soil)) return true;
+    return !layers && dp_law_own(&patch->soils[kind]);
+}
+
 double dp_soil_layer_pressed(const DpLayer* layers, int count, int layer, double depth)
 {
     const double held = soil_min(depth, rigid_of(layers, count));

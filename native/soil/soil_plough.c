@@ -19,14 +19,16 @@ Turn dp_plough_begin(const DpSoilPatch* patch, DpImprint* imprint)
     return TELLS;
 }
 
-void dp_plough_press(DpSoilPatch* patch, DpImprint* imprint, size_t p, Target target, Turn turn,
+void dp_plough_press(DpSoilPatch* patch, DpImprint* imprint, const Targets* targets, Turn turn,
                      double dt, DpPressed* pressed)
 {
-    imprint->ring[p] = 0;
-    if (turn == PRESSES)
-        dp_press_cell(patch, p, target, dt, pressed);
-    else
-        imprint->goal[p] = (float)(target.share * target.depth);
+    for (int k = 0; k < targets->count; ++k) imprint->ring[targets->cell[k]] = 0;
+    if (turn == PRESSES) {
+        dp_press_cells(patch, targets, dt, pressed);
+        return;
+    }
+    for (int k = 0; k < targets->count; ++k)
+        imprint->goal[targets->cell[k]] = (float)(targets->share[k] * targets->depth[k]);
 }
 
 // the share of its depth to which the sole has come so far, 0..1
@@ -138,9 +140,10 @@ static Met meet(const DpSoilPatch* patch, const DpImprint* imprint, int i, int j
     const Before was = before(patch, imprint, i + gone[0] / patch->cell, j + gone[1] / patch->cell);
     met.is_met = goal > was.goal;
     met.far = far, met.x = gone[0] / far, met.y = gone[1] / far;
-    met.from_side = share * soil_max(goal - was.goal, 0.0);
+    const double flows = 1.0 - imprint->slide->held;
+    met.from_side = flows * share * soil_max(goal - was.goal, 0.0);
     met.in_way = soil_max(share * goal - (double)patch->compression[p], 0.0);
-    met.swept = uncovered(was.cover, cover);
+    met.swept = flows * uncovered(was.cover, cover);
     return met;
 }
 

@@ -4,12 +4,19 @@
 #define PRESS_GRID \
     ldexp(1.5, 52 - 46)  // for sums of pressed depths: steps of 1.4e-14 m, up to 128 m
 
-void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed)
+// the share of its target to which a soil yields in dt seconds
+static double yields(const DpSoil* soil, double dt)
+{
+    return soil_min(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
+}
+
+static inline void press_cell(DpSoilPatch* patch, size_t p, Target target, double share, double dt,
+                              DpPressed* pressed)
 {
     const DpSoil* soil = &patch->soils[patch->kind[p]];
     const float   c = patch->compression[p], b = patch->heap[p];
-    const double  goal = target.share * target.depth;                           // TRAIL (10)
-    const double  rate = goal * soil_min(dt / (double)soil->settle_time, 1.0);  // SOFT22 (11)
+    const double  goal = target.share * target.depth;  // TRAIL (10)
+    const double  rate = goal * share;
     const double  press =
         soil_max(soil_min(rate, goal - ((double)c - (double)b)), 0.0);  // not past it
     const double loose = soil_min(press, (double)b);
@@ -33,4 +40,24 @@ void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPre
                           : (double)soil->poisson_ratio;
     pressed->displaced += soil_on_grid(2.0 * nu * moved, PRESS_GRID);  // SOFT22 (12)
     pressed->deepest = soil_max(pressed->deepest, (double)patch->compression[p]);
+}
+
+void dp_press_cell(DpSoilPatch* patch, size_t p, Target target, double dt, DpPressed* pressed)
+{
+    press_cell(patch, p, target, yields(&patch->soils[patch->kind[p]], dt), dt, pressed);
+}
+
+void dp_press_cells(DpSoilPatch* patch, const Targets* targets, double dt, DpPressed* pressed)
+{
+    DpPressed     sum = *pressed;  // of its own, so that no cell waits for memory
+    const DpSoil* soil = NULL;
+    double        share = 0.0;
+    for (int k = 0; k < targets->count; ++k) {
+        const size_t  p = targets->cell[k];
+        const DpSoil* under = &patch->soils[patch->kind[p]];
+        if (under != soil) soil = under, share = yields(soil, dt);
+        press_cell(patch, p, (Target){targets->depth[k], targets->stress[k], targets->share[k]},
+                   share, dt, &sum);
+    }
+    *pressed = sum;
 }

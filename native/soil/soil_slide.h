@@ -48,9 +48,13 @@ void dp_slide_raise(float* restrict height, float* restrict heap, const float* r
 typedef struct Walls
 {
     float* base;   // ground before any walker; 0 where a sole stands or none is        [m]
-    float* steep;  // tan(gamma_w) cell: by how much a wall may be higher; INFINITY: any [m]
+    float* steep;  // tan(gamma_w) cell >= 0: by how much a wall may be higher; BARRIER: any [m]
     float* slack;  // what may stand above that                                         [m]
 } Walls;
+
+// Does any firm cell of a row let something fall? Of most rows none does, and this is half the work.
+int dp_walls_fall(const Walls* walls, const float* restrict firm, const float* restrict height,
+                  ptrdiff_t row, int count);
 
 // First stencil: what each firm cell of a row lets fall, MODEL 6.8; returns ROW_ bits.
 // @param most  a cell lets fall at most so much [m]
@@ -66,6 +70,14 @@ void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict fl
 
 // Firm ground of a row as its floors say.
 void dp_walls_lower(float* restrict firm, const double* restrict floor, int count);
+
+// ---- soil_slide_read.c --------------------------------------------------------------------------
+
+// A height near the ground of a box, so that floats are small; the same for mirrored ground [m].
+double dp_slide_level(const DpSoilPatch* patch, DpCellRect box);
+
+// The cells of a box that can move: loose soil, and firm ground beside what was pressed; empty without any.
+DpCellRect dp_slide_movable(const DpSoilPatch* patch, DpCellRect box);
 
 // Read the walls of a row of a patch.
 void dp_walls_fill(const Walls* to, const float* restrict base_height,

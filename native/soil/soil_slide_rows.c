@@ -1,7 +1,8 @@
 // soil/soil_slide_rows.c - soil slides row by row. TRAIL (14)-(16).
 //
 // Opposite neighbours are added in pairs, so a mirrored or turned print stays mirrored or turned to the bit.
-#include "base/wide.h"  // first: it says how loops may be widened
+#include "base/finite.h"
+#include "base/wide.h"  // these two first: they say how loops may be widened
 #include "soil/soil_slide.h"
 
 DP_CLONES
@@ -78,30 +79,6 @@ static void raise_row(float* restrict height, float* restrict heap, const float*
     }
 }
 
-DP_CLONES
-static void fill(const Row* to, const float* restrict base_height,
-                 const float* restrict compression, const float* restrict loose,
-                 const float* restrict rest_slope, const int32_t* restrict ring, int count,
-                 double cell, double level, double tan_slack)
-{
-    float* restrict firm = to->firm, * restrict height = to->height, * restrict heap = to->heap;
-    float* restrict fall = to->fall, * restrict slack = to->slack;
-    double* restrict sum = to->sum;
-    for (int i = 0; i < count; ++i) {
-        const int    open = (base_height[i] == base_height[i]) & (ring[i] > 0);
-        const double slope = (double)rest_slope[i];
-        const float  ground = (float)((double)base_height[i] - (double)compression[i] - level);
-        const float  lies = open ? loose[i] : 0.0f;
-        firm[i] = open ? ground : BARRIER;
-        sum[i] = (double)lies;
-        heap[i] = lies;
-        height[i] = open ? ground + lies : BARRIER;
-        fall[i] = open ? (float)(slope * cell) : 0.0f;
-        // tan(gamma + slack) - tan(gamma), from its first order: a little stricter
-        slack[i] = open ? (float)(tan_slack * (1.0 + slope * slope) * cell) : 0.0f;
-    }
-}
-
 // ---- the doors of those above ------------------------------------------------------------------
 
 int dp_slide_decide(float* restrict share, float* restrict give, const float* restrict h,
@@ -122,12 +99,4 @@ void dp_slide_raise(float* restrict height, float* restrict heap, const float* r
                     const double* restrict sum, int count)
 {
     raise_row(height, heap, firm, sum, count);
-}
-
-void dp_slide_fill(const Row* to, const float* restrict base_height,
-                   const float* restrict compression, const float* restrict loose,
-                   const float* restrict rest_slope, const int32_t* restrict ring, int count,
-                   double cell, double level, double tan_slack)
-{
-    fill(to, base_height, compression, loose, rest_slope, ring, count, cell, level, tan_slack);
 }

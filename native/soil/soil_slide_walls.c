@@ -1,15 +1,84 @@
 // soil/soil_slide_walls.c - firm walls that are too steep come loose and slide, row by row. Ours; MODEL 6.8
 //
 // Opposite neighbours are added in pairs, as in soil_slide_rows.c.
-#include "base/wide.h"  // first: it says how loops may be widened
+#include "base/finite.h"
+#include "base/wide.h"  // these two first: they say how loops may be widened
+#include "base/inline.h"
 #include "soil/soil_slide.h"
 
 // How much higher firm ground stands over a neighbour's surface than it may: than its wall, or than
 // the ground before any walker. A wall of soil that stands may be as high as it likes.
-static inline float over(float firm, float base, float steep, float surface, float base_at)
+DP_INLINE float over(float firm, float base, float steep, float surface, float base_at)
 {
     const float drop = base - base_at, may = steep > drop ? steep : drop;
     return above_zero((firm - surface) - may);
+}
+
+// what a cell stands too high over its neighbours: east, west, north, south, and between these
+typedef struct
+{
+    float e, w, n, s, ne, sw, nw, se;
+} Excess;
+
+// h, z: surface and base at the cell itself, of rows `row` apart
+DP_INLINE Excess excess_of(float at, float base_at, float steep, const float* h, const float* z,
+                           ptrdiff_t row)
+{
+    const float diagonal = steep * ROOT2;
+    return (Excess){over(at, base_at, steep, h[1], z[1]),  // MODEL 6.8
+                    over(at, base_at, steep, h[-1], z[-1]),
+                    over(at, base_at, steep, h[row], z[row]),
+                    over(at, base_at, steep, h[-row], z[-row]),
+                    over(at, base_at, diagonal, h[row + 1], z[row + 1]),
+                    over(at, base_at, diagonal, h[-row - 1], z[-row - 1]),
+                    over(at, base_at, diagonal, h[row - 1], z[row - 1]),
+                    over(at, base_at, diagonal, h[-row + 1], z[-row + 1])};
+}
+
+// the steepest of them, by the way to the neighbour
+DP_INLINE float worst_of(Excess x)
+{
+    const float ew = x.e > x.w ? x.e : x.w, ns = x.n > x.s ? x.n : x.s;
+    const float up = x.ne > x.sw ? x.ne : x.sw, down = x.nw > x.se ? x.nw : x.se;
+    const float side = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
+    return side > across ? side : across;
+}
+
+// Whether any of a row's cells may stand too high at all. What a wall may be higher is no less than `steep`, >= 0, to any
+// of its neighbours, so the lowest of them tells of all eight; of most rows this is all that is asked.
+DP_CLONES
+static int may_fall(const Walls* walls, const float* restrict firm, const float* restrict height,
+                    ptrdiff_t row, int count)
+{
+    const float* restrict steep = walls->steep, * restrict slack = walls->slack;
+    int any = 0;
+    for (int i = 0; i < count; ++i) {
+        const float* h = height + i;
+        float        low = h[1];
+        low = h[-1] < low ? h[-1] : low;
+        low = h[row] < low ? h[row] : low;
+        low = h[-row] < low ? h[-row] : low;
+        low = h[row + 1] < low ? h[row + 1] : low;
+        low = h[-row - 1] < low ? h[-row - 1] : low;
+        low = h[row - 1] < low ? h[row - 1] : low;
+        low = h[-row + 1] < low ? h[-row + 1] : low;
+        any |= (firm[i] - low) - steep[i] > HOLD * slack[i] ? 1 : 0;
+    }
+    return any;
+}
+
+DP_CLONES
+static int fall(const Walls* walls, const float* restrict firm, const float* restrict height,
+                ptrdiff_t row, int count)
+{
+    const float* restrict base = walls->base, * restrict steep = walls->steep;
+    const float* restrict slack = walls->slack;
+    int any = 0;
+    for (int i = 0; i < count; ++i) {
+        const Excess x = excess_of(firm[i], base[i], steep[i], height + i, base + i, row);
+        any |= worst_of(x) > HOLD * slack[i] ? 1 : 0;
+    }
+    return any;
 }
 
 DP_CLONES
@@ -22,25 +91,13 @@ static int decide_walls(const Walls* walls, float* restrict share, float* restri
     const float one = 1.0f / film;
     int         moves = 0, restless = 0;
     for (int i = 0; i < count; ++i) {
-        const float *h = height + i, *z = base + i;
-        const float  at = firm[i], base_at = *z, straight = steep[i], diagonal = steep[i] * ROOT2;
-        const float  e = over(at, base_at, straight, h[1], z[1]);  // MODEL 6.8
-        const float  w = over(at, base_at, straight, h[-1], z[-1]);
-        const float  n = over(at, base_at, straight, h[row], z[row]);
-        const float  s = over(at, base_at, straight, h[-row], z[-row]);
-        const float  ne = over(at, base_at, diagonal, h[row + 1], z[row + 1]);
-        const float  sw = over(at, base_at, diagonal, h[-row - 1], z[-row - 1]);
-        const float  nw = over(at, base_at, diagonal, h[row - 1], z[row - 1]);
-        const float  se = over(at, base_at, diagonal, h[-row + 1], z[-row + 1]);
-        const float  sum = ((e + w) + (n + s)) + ((ne + sw) + (nw + se));
-        const float  sides = (at_most_one(e * one) + at_most_one(w * one)) +
-                            (at_most_one(n * one) + at_most_one(s * one));
-        const float corners = (at_most_one(ne * one) + at_most_one(sw * one)) +
-                              (at_most_one(nw * one) + at_most_one(se * one));
-        const float ew = e > w ? e : w, ns = n > s ? n : s;
-        const float up = ne > sw ? ne : sw, down = nw > se ? nw : se;
-        const float side = ew > ns ? ew : ns, across = (up > down ? up : down) * (1.0f / ROOT2);
-        const float worst = side > across ? side : across, hold = HOLD * slack[i];
+        const Excess x = excess_of(firm[i], base[i], steep[i], height + i, base + i, row);
+        const float  sum = ((x.e + x.w) + (x.n + x.s)) + ((x.ne + x.sw) + (x.nw + x.se));
+        const float  sides = (at_most_one(x.e * one) + at_most_one(x.w * one)) +
+                            (at_most_one(x.n * one) + at_most_one(x.s * one));
+        const float corners = (at_most_one(x.ne * one) + at_most_one(x.sw * one)) +
+                              (at_most_one(x.nw * one) + at_most_one(x.se * one));
+        const float worst = worst_of(x), hold = HOLD * slack[i];
         const float eager = at_most_one(above_zero(worst - hold) / (hold + 1e-35f));
         const float even = eager * 0.5f / ((sides + corners) + 1.0f);
         const float limit = most / (sum + 1e-35f), a = even < limit ? even : limit;
@@ -72,24 +129,13 @@ static void take_walls(const Walls* walls, double* restrict sum, double* restric
     }
 }
 
-DP_CLONES
-static void fill_walls(const Walls* to, const float* restrict base_height,
-                       const float* restrict wall_slope, const int32_t* restrict ring, int count,
-                       double cell, double level, double tan_slack)
-{
-    float* restrict base = to->base, * restrict steep = to->steep, * restrict slack = to->slack;
-    for (int i = 0; i < count; ++i) {
-        const int    open = (base_height[i] == base_height[i]) & (ring[i] > 0);
-        const double slope = (double)wall_slope[i];
-        const int    falls = open & (slope < 1e6);
-        const double fall = falls ? slope : 0.0;
-        base[i] = open ? (float)((double)base_height[i] - level) : 0.0f;
-        steep[i] = falls ? (float)(fall * cell) : INFINITY;
-        slack[i] = (float)(tan_slack * (1.0 + fall * fall) * cell);
-    }
-}
-
 // ---- the doors of those above ------------------------------------------------------------------
+
+int dp_walls_fall(const Walls* walls, const float* restrict firm, const float* restrict height,
+                  ptrdiff_t row, int count)
+{
+    return may_fall(walls, firm, height, row, count) && fall(walls, firm, height, row, count);
+}
 
 int dp_walls_decide(const Walls* walls, float* restrict share, float* restrict give,
                     const float* restrict firm, const float* restrict height, ptrdiff_t row,
@@ -104,13 +150,6 @@ void dp_walls_take(const Walls* walls, double* restrict sum, double* restrict fl
                    int count)
 {
     take_walls(walls, sum, floor, share, give, firm, height, row, count);
-}
-
-void dp_walls_fill(const Walls* to, const float* restrict base_height,
-                   const float* restrict wall_slope, const int32_t* restrict ring, int count,
-                   double cell, double level, double tan_slack)
-{
-    fill_walls(to, base_height, wall_slope, ring, count, cell, level, tan_slack);
 }
 
 void dp_walls_lower(float* restrict firm, const double* restrict floor, int count)

@@ -49,6 +49,7 @@ typedef struct Window
 
     bool    slides;  // firm walls can fall: the rest is there         MODEL 6.8
     Walls   walls;
+    bool*   falls;       // does a wall of a row? (ny + 2 FRAME)
     double* floor;       // firm ground, kept finer than a float             [m]
     float*  wall_share;  // share of the excess that falls                   [-]
     float*  wall_give;   // .. times the sum of excess                       [m]
@@ -96,6 +97,20 @@ static void read_row(const Window* window, const DpSoilPatch* patch, const int32
             window->firm[w + i] < BARRIER ? floor_of(patch, p + i, level) : (double)BARRIER;
 }
 
+// where no soil can be: `count` cells of the frame from `at` on
+static void wall_in(const Window* window, size_t at, size_t count)
+{
+    for (size_t k = at; k < at + count; ++k) {
+        window->firm[k] = window->height[k] = BARRIER;
+        window->heap[k] = window->fall[k] = window->slack[k] = 0.0f;
+        window->sum[k] = 0.0;
+    }
+    for (size_t k = at; window->slides && k < at + count; ++k) {
+        window->walls.steep[k] = BARRIER;
+        window->walls.base[k] = 0.0f;
+    }
+}
+
 static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprint* imprint,
                         DpCellRect box, double level, double tan_slack, DpSoilScratch* scratch)
 {
@@ -105,11 +120,12 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
     const size_t cells = window->row * (ny + 2 * FRAME);
     window->slides = patch->wall_slope != NULL;
     window->cell = (float)patch->cell;
-    window->most = soil_takes_time(patch) ? MAX_FALLS * window->cell : INFINITY;
+    window->most = soil_takes_time(patch) ? MAX_FALLS * window->cell : BARRIER;
     const size_t floats = window->slides ? GRIDS + WALL_GRIDS : GRIDS;
     const size_t fine = window->slides ? 2 : 1;
     double*      doubles =
-        dp_soil_scratch_block(scratch, cells * (fine * sizeof(double) + floats * sizeof(float)));
+        dp_soil_scratch_block(scratch, cells * (fine * sizeof(double) + floats * sizeof(float)) +
+                                           (ny + 2 * FRAME) * sizeof(bool));
     if (!doubles) return false;
     window->sum = doubles;
     window->floor = doubles + cells;
@@ -119,20 +135,18 @@ static bool open_window(Window* window, const DpSoilPatch* patch, const DpImprin
         &window->slack,       &window->share,       &window->give,       &window->walls.base,
         &window->walls.steep, &window->walls.slack, &window->wall_share, &window->wall_give};
     for (size_t g = 0; g < floats; ++g) *grid[g] = block + g * cells;
-    for (size_t k = 0; k < cells; ++k) window->firm[k] = window->height[k] = BARRIER;
-    for (size_t k = 0; window->slides && k < cells; ++k) {
-        window->walls.steep[k] = INFINITY;
-        window->walls.base[k] = window->wall_share[k] = 0.0f;
-    }
-    memset(window->sum, 0, cells * sizeof(double));
-    memset(window->heap, 0, 5 * cells * sizeof(float));
+    window->falls = (bool*)(void*)(block + floats * cells);
+    wall_in(window, 0, FRAME * window->row);
+    wall_in(window, cells - FRAME * window->row, FRAME * window->row);
     int32_t* nobody = (int32_t*)(void*)window->share;  // a row of cells where no sole stands
     for (size_t i = 0; !imprint && i < nx; ++i) nobody[i] = DP_RING_FAR;
     for (long j = box.j0; j < box.j1; ++j) {
+        const size_t   at = cell_of(window, box.i0, j);
         const int32_t* sole = imprint ? imprint->ring + soil_at(patch, box.i0, j) : nobody;
+        wall_in(window, at - FRAME, FRAME);
         read_row(window, patch, sole, j, level, tan_slack);
+        wall_in(window, at + nx, window->row - FRAME - nx);
     }
-    memset(window->share, 0, nx * sizeof(float));
     return true;
 }
 
@@ -152,6 +166,7 @@ static double write_back(const Window* window, DpSoilPatch* patch, const DpImpri
             if (!(fell > 0.0)) continue;
             const float was = patch->compression[p];
             patch->compression[p] = (float)((double)was + fell);
+            if (patch->spring) dp_soil_spring_fell(patch, p, fell);
             loosened += (double)patch->compression[p] - (double)was;
         }
     return loosened;
@@ -189,66 +204,6 @@ static bool move_window(Window* window, const DpSoilPatch* patch, const DpImprin
     return open;
 }
 
-#define LANES 16  // the highest of so many columns at once
-
-DP_CLONES
-static void highest_of_row(const float* restrict base_height, int count, float* restrict high)
-{
-    for (int i = 0; i < count; i += LANES) {
-        const int lanes = count - i < LANES ? count - i : LANES;
-        for (int k = 0; k < lanes; ++k)
-            high[k] = base_height[i + k] > high[k] ? base_height[i + k] : high[k];
-    }
-}
-
-// a height near the ground, so that floats are small; the same for mirrored ground
-static double level_of(const DpSoilPatch* patch, DpCellRect box)
-{
-    float high[LANES];
-    for (int k = 0; k < LANES; ++k) high[k] = -INFINITY;
-    for (long j = box.j0; j < box.j1; ++j)
-        highest_of_row(patch->base_height + soil_at(patch, box.i0, j), (int)(box.i1 - box.i0),
-                       high);
-    for (int k = 1; k < LANES; ++k) high[0] = high[k] > high[0] ? high[k] : high[0];
-    return isfinite(high[0]) ? floor((double)high[0]) : 0.0;
-}
-
-DP_CLONES
-static int any_loose(const float* heap, int count)
-{
-    int loose = 0;
-    for (int i = 0; i < count; ++i) loose |= heap[i] > 0.0f;
-    return loose;
-}
-
-// the cells of a box between which `heap` is not 0; empty without any
-static DpCellRect loose_in(const DpSoilPatch* patch, DpCellRect box, const float* grid)
-{
-    DpCellRect loose = {box.i1, box.i0, box.j1, box.j0};
-    for (long j = box.j0; j < box.j1; ++j) {
-        const float* heap = grid + soil_at(patch, 0, j);
-        long         first = box.i0, last = box.i1 - 1;
-        if (!any_loose(heap + first, (int)(box.i1 - first))) continue;
-        while (!(heap[first] > 0.0f)) ++first;
-        while (!(heap[last] > 0.0f)) --last;
-        loose.i0 = first < loose.i0 ? first : loose.i0;
-        loose.i1 = last >= loose.i1 ? last + 1 : loose.i1;
-        loose.j0 = j < loose.j0 ? j : loose.j0;
-        loose.j1 = j + 1;
-    }
-    return loose;
-}
-
-// the cells of a box that can move: loose soil, and firm ground beside what was pressed
-static DpCellRect movable_in(const DpSoilPatch* patch, DpCellRect box)
-{
-    const DpCellRect loose = loose_in(patch, box, patch->heap);
-    if (!patch->wall_slope) return loose;
-    const DpCellRect pressed = loose_in(patch, box, patch->compression);
-    if (dp_cells_empty(pressed)) return loose;
-    return dp_cells_join(loose, soil_grown(pressed, 1, patch));
-}
-
 // ---- sweeps ----------------------------------------------------------------------------------
 
 static void clear_sides(float* at, int count)
@@ -257,11 +212,23 @@ static void clear_sides(float* at, int count)
     memset(at + count, 0, 2 * sizeof(float));
 }
 
+// nothing is given from `count` cells, nor from two beside them
+static void give_nothing(float* share, float* give, int count)
+{
+    memset(share - 2, 0, (size_t)(count + 4) * sizeof(float));
+    memset(give - 2, 0, (size_t)(count + 4) * sizeof(float));
+}
+
 // the same for the walls of a row; returns ROW_ bits
 static int decide_walls(const Window* window, size_t at, int count, float film)
 {
     const Walls  walls = walls_at(window, at);
     float *const share = window->wall_share + at, *const give = window->wall_give + at;
+    if (!dp_walls_fall(&walls, window->firm + at, window->height + at, (ptrdiff_t)window->row,
+                       count)) {
+        give_nothing(share, give, count);
+        return 0;
+    }
     const int wish = dp_walls_decide(&walls, share, give, window->firm + at, window->height + at,
                                      (ptrdiff_t)window->row, count, film, MAX_FALLS * window->cell);
     clear_sides(share, count);
@@ -287,17 +254,17 @@ static DpCellRect decide(const Window* window, DpCellRect look, float film, bool
 {
     DpCellRect movers = {LONG_MAX, LONG_MIN, LONG_MAX, LONG_MIN};
     *restless = false;
-    const size_t wide = (size_t)(look.i1 - look.i0) + 4;
+    const int count = (int)(look.i1 - look.i0);
     for (long j = look.j0 - 2; j < look.j1 + 2; ++j) {
         const size_t at = cell_of(window, look.i0, j);
+        bool* const  fall = &window->falls[j - window->box.j0 + FRAME];
+        *fall = false;
         if (j < look.j0 || j >= look.j1) {  // nothing is given from outside
-            memset(window->share + at - 2, 0, wide * sizeof(float));
-            memset(window->give + at - 2, 0, wide * sizeof(float));
-            if (window->slides) memset(window->wall_share + at - 2, 0, wide * sizeof(float));
-            if (window->slides) memset(window->wall_give + at - 2, 0, wide * sizeof(float));
+            give_nothing(window->share + at, window->give + at, count);
+            if (window->slides)
+                give_nothing(window->wall_share + at, window->wall_give + at, count);
             continue;
         }
-        const int count = (int)(look.i1 - look.i0);
         const int wish = dp_slide_decide(window->share + at, window->give + at, window->height + at,
                                          window->heap + at, window->fall + at, window->slack + at,
                                          (ptrdiff_t)window->row, count, film, window->most);
@@ -306,10 +273,22 @@ static DpCellRect decide(const Window* window, DpCellRect look, float film, bool
         const int falls = window->slides ? decide_walls(window, at, count, film) : 0;
         *restless = *restless || ((wish | falls) & ROW_RESTLESS);
         if (wish & ROW_MOVES) movers = with_givers(movers, window->give + at, look.i0, count, j);
-        if (falls & ROW_MOVES)
-            movers = with_givers(movers, window->wall_give + at, look.i0, count, j);
+        if (!(falls & ROW_MOVES)) continue;
+        movers = with_givers(movers, window->wall_give + at, look.i0, count, j);
+        *fall = true;
     }
     return movers;
+}
+
+// what walls in a row and beside it let fall, if one does
+static void take_walls(const Window* window, size_t at, int count, long j)
+{
+    const bool* fall = &window->falls[j - window->box.j0 + FRAME];
+    if (!window->slides || !(fall[-1] || fall[0] || fall[1])) return;
+    const Walls walls = walls_at(window, at);
+    dp_walls_take(&walls, window->sum + at, window->floor + at, window->wall_share + at,
+                  window->wall_give + at, window->firm + at, window->height + at,
+                  (ptrdiff_t)window->row, count);
 }
 
 // second stencil over the cells that give and their neighbours
@@ -320,11 +299,7 @@ static void take(const Window* window, DpCellRect change)
         const size_t at = cell_of(window, change.i0, j);
         dp_slide_take(window->sum + at, window->give + at, window->height + at, window->share + at,
                       window->fall + at, (ptrdiff_t)window->row, count);
-        if (!window->slides) continue;
-        const Walls walls = walls_at(window, at);
-        dp_walls_take(&walls, window->sum + at, window->floor + at, window->wall_share + at,
-                      window->wall_give + at, window->firm + at, window->height + at,
-                      (ptrdiff_t)window->row, count);
+        take_walls(window, at, count, j);
     }
     for (long j = change.j0; j < change.j1; ++j) {
         const size_t at = cell_of(window, change.i0, j);
@@ -358,9 +333,9 @@ DpStatus dp_soil_stabilize(DpSoilPatch* patch, const DpImprint* imprint, const D
     if (dp_cells_empty(look)) return DP_OK;
 
     const DpCellRect asked = look;
-    look = movable_in(patch, look);
+    look = dp_slide_movable(patch, look);
     if (look.i0 >= look.i1) return DP_OK;
-    const double tan_slack = tan(tolerance), level = level_of(patch, asked);
+    const double tan_slack = tan(tolerance), level = dp_slide_level(patch, asked);
     const float  film = (float)(0.1 * tan_slack * patch->cell);
     int          margin = FIRST_MARGIN;
     DpStatus     status = DP_OK;

@@ -120,6 +120,8 @@ typedef struct DpTrail
     const float* compression;    // [m] (ny, nx)
     const float* heap;           // [m] (ny, nx)
     const float* pressure_time;  // [Pa s] (ny, nx)
+    void (*as_left)(
+        DpSoilPatch* patch);  // sets its springs: dp_soil_spring_trodden; NULL: all stays pressed
 } DpTrail;
 
 // Lay a trail down in place of what is there; cells without ground stay without. Tiles of which the

@@ -40,6 +40,7 @@ static DpStatus lay_tile(DpTerrain* terrain, DpLease* lease, const DpTrail* trai
             patch->heap[to] = trail->heap[from];
             patch->pressure_time[to] = trail->pressure_time[from];
         }
+    if (trail->as_left) trail->as_left(patch);
     dp_terrain_commit(terrain, lease, dp_cells(0, 0, part->nx, part->ny));
     return DP_OK;
 }

@@ -12,6 +12,7 @@ from desire_path.bake.bake import Bake, BakeOptions, BakeOutput
 from desire_path.bake.checks import check_grounds
 from desire_path.bake.grounds import simulations
 from desire_path.bounds import Limits
+from desire_path.farm.chunks import Frame
 from desire_path.ground import maps
 from desire_path.ground.planting import Planting
 from desire_path.ground.sim import TILE, Simulation
@@ -185,15 +186,39 @@ def far(*at):
 
 
 def test_a_long_diagonal_is_taken_and_a_longer_one_is_not(tmp_path):
-    """130 m at 1 cm: more cells than a picture may have lie in the rectangle around it, and no more than a map may."""
-    limits = Limits(memory=1e9, disk=1e9)
-    bake = Bake(far(130.0, 130.0), Ground.flat(), "mud", tmp_path, output=BakeOutput(map_seconds=False))
+    """400 m at 1 cm: more cells than a picture may have lie in the rectangle around it, and no more than a map may."""
+    limits = Limits(memory=4e9, disk=1e9)
+    bake = Bake(far(400.0, 400.0), Ground.flat(), "mud", tmp_path, output=BakeOutput(map_seconds=False))
     _, _, shares = simulations(bake)
     assert shares[0].cells > 1 << 27
     shares[0].thin(limits.cells)
     assert shares[0].cells < 1 << 22
     check_grounds(limits, bake.stepped, shares, bake.count)
-    bake = Bake(far(200.0, 200.0), Ground.flat(), "mud", tmp_path)
-    with pytest.raises(DesirePathError, match=r"268,435,456 are the most: choose cells of 0\.012 m or more") as error:
+    bake = Bake(far(700.0, 700.0), Ground.flat(), "mud", tmp_path)
+    with pytest.raises(DesirePathError, match=r"4,294,967,296 are the most: choose cells of 0\.011 m or more") as error:
         next(bake.run())
-    assert "spans 20" in str(error.value)
+    assert "spans 70" in str(error.value)
+
+
+def test_a_map_of_more_than_2_to_the_28_cells_holds_every_print(tmp_path):
+    """Two who stand 180 m apart, and the same two 6 m apart: prints in the same tiles, and nothing between."""
+    found = []
+    for apart in (6.4, 179.2):
+        bake = Bake(
+            far(apart, apart),
+            Ground.flat(),
+            "mud",
+            tmp_path / f"{apart}",
+            output=BakeOutput(frame_end=4, map_seconds=False),
+        )
+        list(bake.run())
+        found.append(Frame.read(str(tmp_path / f"{apart}" / "maps_final.exr")))
+    near, wide = found
+    assert wide.columns * wide.rows * 4096 > 1 << 28
+    zero = wide.tiles[wide.columns // 2, wide.rows // 4]
+    prints = [{at: tile for at, tile in each.tiles.items() if tile != zero} for each in found]
+    tiles = round((179.2 - 6.4) / 0.64)
+    half = near.columns // 2
+    assert len(prints[0]) >= 4
+    assert set(prints[1]) == {(x + tiles * (x >= half), y + tiles * (x >= half)) for x, y in prints[0]}
+    assert {at for at in prints[0] if prints[1].get(at) == prints[0][at]} == {at for at in prints[0] if at[0] < half}

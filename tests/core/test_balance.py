@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from reference import walker as twin
 from scenes import beasts, bvh, gaits
 
 from desire_path.errors import DesirePathError
@@ -62,6 +63,16 @@ def test_no_torque_where_the_mass_centre_stands_over_the_middle():
     assert torque(target, over + (0.8, -0.6, 0.0), along, still, USUAL) == pytest.approx([0.0], abs=1e-12)  # beside it
     assert torque(target, over - 0.1 * along, along, still, USUAL) == pytest.approx([3.0])
     assert torque(target, over, along, np.array([0.5]), USUAL) == pytest.approx([-3.0])
+
+
+def test_the_torque_is_as_printed():
+    """SOFT22 (1), against its twin: any place of the mass centre, any heading, any swing."""
+    random = np.random.default_rng(2)
+    target, com, heading = random.normal(size=(20, 3)), random.normal(size=(20, 3)), random.uniform(0, 7, 20)
+    along = np.stack([np.cos(heading), np.sin(heading), 0 * heading], axis=1)
+    turning, options = random.normal(size=20), BalanceOptions(stiffness=22.0, damping=4.5)
+    printed = [twin.tilt(*each, 22.0, 4.5) for each in zip(target, com, along, turning)]
+    np.testing.assert_allclose(torque(target, com, along, turning, options), printed, rtol=1e-12)
 
 
 @pytest.mark.parametrize("height", [0.01, 1.0, 3.0])

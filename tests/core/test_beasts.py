@@ -48,6 +48,27 @@ def test_a_mesh_tells_where_the_weight_is():
     assert "litres of its mesh" in mass.sentence_by_volume("Dog", 1000 * whole, whole)
 
 
+def wedge():
+    """A bone from y = 0.3 to 0.7 m inside a closed body from 0 to 1 m, 1 m high, that widens from 1 to 2 m."""
+    rest = np.eye(4)[None]
+    rest[0, 1, 3] = 0.3
+    bones = body.Skeleton(("bone",), np.array([-1], np.int32), rest, np.array([0.4]))
+    ring = lambda y, wide: [(-wide, y, -0.5), (wide, y, -0.5), (wide, y, 0.5), (-wide, y, 0.5)]
+    corner = np.array(ring(0.0, 0.5) + ring(1.0, 1.0), np.float32)
+    sides = [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)] + [(3, 2, 1, 0), (4, 5, 6, 7)]
+    faces = np.array([each for a, b, c, d in sides for each in ((a, b, c), (a, c, d))], np.int32)
+    return bones, body.Skin(corner, faces, {"bone": np.ones(8, np.float32)})
+
+
+def test_a_closed_mesh_is_as_large_as_it_is():
+    """By the faces about their bone alone it is a third larger; its centre lies where that of a frustum does."""
+    bones, hide = wedge()
+    rig = rigs.Rig(feet=(rigs.Foot("left", "bone"),), segments=())
+    (segment,), volume = mass.by_volume(bones, rig, hide)
+    assert volume == pytest.approx(1.5, rel=1e-6)
+    assert 0.3 + 0.4 * segment.start[0][1] == pytest.approx(5.0 / 9.0, abs=0.006)
+
+
 def test_at_rest_four_feet_balance_about_the_mass_centre():
     bones = beasts.skeleton()
     g = gait(bones, beasts.motion(bones), by_volume(bones))

@@ -86,9 +86,14 @@ def test_a_recording_out_of_all_time_is_a_sentence():
 def test_a_picture_that_is_too_large_is_refused(tmp_path):
     """Two feet far apart: what lies between them need not be in the picture, but is in maps."""
     there = standing()
-    far = Gait.join([there, replace(there, pose=there.pose + [200, 200, 0, 0, 0, 0, 0], com=there.com + [200, 200, 0])])
-    text = refused(tmp_path / "bake", far, limits=Limits(memory=1e12, disk=1e15))
-    assert "268,435,456 are the most: choose cells of" in text
+
+    def apart(x):
+        other = replace(there, pose=there.pose + [x, x, 0, 0, 0, 0, 0], com=there.com + [x, x, 0])
+        return Gait.join([there, other])
+
+    text = refused(tmp_path / "bake", apart(700), limits=Limits(memory=1e12, disk=1e15))
+    assert "4,294,967,296 are the most: choose cells of" in text
+    far = apart(200)
     text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(cells=1000))
     assert "cells in a picture" in text and "1,000 are the limit" in text
     text = refused(tmp_path / "bake", far, cell_size=0.05, limits=Limits(memory=1e8))

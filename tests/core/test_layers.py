@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from test_plough import dragged
 
 from desire_path import SOILS, Bake, BakeOptions, DesirePathError, Ground, Simulation, SimulationOptions, Soil, SoilKeys
 from desire_path.__main__ import main
 from desire_path.ground import maps
 from desire_path.ground.layers import Layer
 from desire_path.ground.spray import Spray
+from desire_path.loads import walker
 from tests.golden.worlds import walk
 from tests.scenes import gaits
 
@@ -237,7 +239,38 @@ def test_a_share_that_cannot_be_is_refused(share, says):
 
 # ---- what flies off ------------------------------------------------------------------------------------
 
+FLIES = Spray(adhesion=0.002, hold_time=0.04, slow_speed=0.1, fast_speed=0.5, particle_size=0.006)
 GRAINS = Spray(adhesion=0.002, hold_time=0.04, slow_speed=1.0, fast_speed=4.0, particle_size=0.006)
+
+
+def all_is_there(sim):
+    """What was displaced lies, sticks, flies or fell beside; what sticks is carried or was left. The report"""
+    told, own = sim.report(), sim.carried()["mud"]
+    assert own["taken_m3"] == pytest.approx(own["carried_m3"] + own["left_m3"], rel=1e-6)
+    laid = told["displaced_m3"] + told["loosened_m3"] - told["pressed_heap_m3"]
+    away = told["stuck_m3"] + told["airborne_m3"] + told["beside_m3"]
+    assert told["heaped_m3"] + away + own["left_m3"] + own["carried_m3"] == pytest.approx(laid, rel=1e-6)
+    return told
+
+
+@pytest.mark.parametrize(("law", "deep"), (("sole", 0.0), ("uniform", 0.0), ("carve", 0.06)))
+def test_nothing_is_lost_of_layers_that_are_ploughed(law, deep):
+    """A crate dragged from mud that sticks, on snow, onto bare sand, throwing what sticks."""
+    gait = dragged(law, far=2.0, seconds=3.0)
+    pose = np.array(gait.pose)
+    pose[..., 2] -= deep
+    gait = replace(gait, pose=pose)
+    ground, share = strip(lambda x: np.clip(0.5 * (2.0 - x), 0.0, 1.0))
+    layers = Layer(STICKY, 0.03, share), Layer("snow", 0.05)
+    sim = Simulation(ground.layered(*layers), SAND, 0.02, options=SimulationOptions(spray=FLIES))
+    sim.load(gait, walker.loads(gait, ground=sim))
+    for until in (60, 300, len(gait.time) - 1):  # it stands, slides, and has slid
+        sim.run(until)
+        told = all_is_there(sim)
+        assert (told["loosened_m3"] > 1e-3) == (until > 60)
+        assert told["airborne_m3"] > 0.0 or until != 300
+    sim.settle()
+    assert all_is_there(sim)["airborne_m3"] == 0.0 and sim.carried()["mud"]["taken_m3"] > 5e-5
 
 
 @pytest.mark.parametrize("painted", (False, True))
@@ -252,11 +285,31 @@ def test_nothing_is_lost_of_layers_that_stick_and_fly(painted):
     for landed in (False, True):
         if landed:
             sim.settle()
-        told, own = sim.report(), sim.carried()["mud"]
-        assert own["taken_m3"] == pytest.approx(own["carried_m3"] + own["left_m3"], rel=1e-6)
-        laid = told["displaced_m3"] + told["loosened_m3"] - told["pressed_heap_m3"]
-        away = told["stuck_m3"] + told["airborne_m3"] + told["beside_m3"]
-        assert told["heaped_m3"] + away + own["left_m3"] + own["carried_m3"] == pytest.approx(laid, rel=1e-6)
+        told = all_is_there(sim)
         flies = np.bincount(sim.grains().soil, minlength=3) * GRAINS.volume
         assert flies.sum() == pytest.approx(told["airborne_m3"], rel=1e-6) and (flies[0] > 0.0) != landed
         assert flies[1:].any() <= painted  # numbers count as the maps: mud, snow, sand
+
+
+# ---- springs beside what is none -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("beside", ("layer", "snow"))
+def test_springs_press_back_as_alone_beside_ground_that_is_none(beside):
+    """A walk over sand, whose feet roll over what they have pressed; a layer lies nowhere, or snow far off."""
+    gait, _ = walk(4.5)
+    off = np.tile(X > 5.5, 2).astype(float)
+    layered, none = strip(lambda x: 0.0 * x)
+    ground, soils = {
+        "layer": (layered.layered(Layer("mud", 0.04, none)), (SAND,)),
+        "snow": (strip(lambda x: 0.0 * x, np.stack([1.0 - off, off]))[0], (SAND, SOILS["powder-snow"])),
+    }[beside]
+    found = []
+    for each, own in ((layered, (SAND,)), (ground, soils)):
+        sim = Simulation(each, own, 0.01)
+        sim.load(gait, walker.loads(gait, ground=sim))
+        sim.run(len(gait.time) - 1)
+        found.append([sim.read(name, (-1, -1, 5, 1)) for name in ("compression", "heap")])
+    for slack, alone, together in zip((1e-6, 5e-3), *found):  # heaps slide at a threshold
+        np.testing.assert_allclose(together, alone, atol=slack * alone.max())
+    assert found[0][0].max() > 0.02

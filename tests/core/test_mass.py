@@ -69,3 +69,27 @@ def test_the_mass_centre_may_be_a_bone():
     still = body.Motion(np.arange(4) / 24.0, bones.names, np.tile(bones.rest, (4, 1, 1, 1)))
     g = body.gait_from_bones(bones, still, mass=70.0, rig=found, frame_rate=24.0)
     np.testing.assert_allclose(g.com[0], np.tile((0, 0, 1.5), (4, 1)), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "height, kilograms, chosen, words, cannot_be",
+    [
+        (1.75, 75.0, True, None, None),
+        (10.0, 14.0 * 10.0**3, True, None, None),  # a giant who weighs as one
+        (10.0, 14.0 * 10.0**3 / 9.0, True, None, None),  # .. or ten times less
+        (10.0, 14.0 * 10.0**3 / 11.0, True, "10 m tall: if that is not meant", False),
+        (10.0, 14.0 * 10.0**3 * 299.0, True, "if that is not meant", False),
+        (10.0, 14.0 * 10.0**3 * 301.0, True, "which cannot be", True),
+        (175.0, 75.0, True, "apply a scale of 0.01 to it, as it seems to be in centimetres", True),
+        (59.0, 75.0, False, "since nobody gave it another mass", False),  # a creature of that size may be
+        (61.0, 75.0, False, "which cannot be", True),
+        (0.02, 75.0, False, "since nobody gave it another mass", False),
+        (0.0175, None, True, "apply a scale of 100 to it", False),
+    ],
+)
+def test_who_is_of_no_persons_size_is_told_or_refused(height, kilograms, chosen, words, cannot_be):
+    found = mass.odd_size("Ann", height, kilograms, chosen)
+    if words is None:
+        assert found is None
+    else:
+        assert found is not None and words in found[0] and found[1] is cannot_be

@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 from desire_path import _native
+from desire_path.ground import trail
 from desire_path.ground.sim import Ground, Simulation
-from desire_path.ground.soil import Soil
+from desire_path.ground.soil import SOILS, Soil
+from desire_path.loads import walker
+from tests.core.test_jumps import recorded
 from tests.core.test_soil_twins import Both, foot_of
 from tests.reference import soil as twin
 from tests.reference import soil_heaps as heaps
@@ -145,6 +148,76 @@ def test_columns_come_back_as_their_twins(seed):
 
 
 Springy = twin.Springy
+
+
+def test_what_fell_from_a_wall_does_not_come_back():
+    """Ground that was pressed 20 mm, and of which 10 mm fell while the sole stood there: 15 % of 20 mm come back."""
+    both = Both(0, loose=0.0, holes=False)
+    for name in ("kind", "rest", "heap"):
+        both.native[name][:] = 0
+    both.native["soils"][0]["rebound"] = 0.15
+    spring = np.full(both.shape, -0.02, np.float32)
+    fields = np.full(both.shape, np.inf, np.float32), np.zeros(both.shape, np.float32), spring
+    for c, stays in ((0.02, 0.017), (0.03, 0.027), (0.018, 0.017), (0.012, 0.012)):
+        spring[:] = -0.02
+        both.native["compression"][:] = c
+        back = _native.soil_rebound((*both.patch(), *fields), None)
+        np.testing.assert_allclose(both.native["compression"], stays, atol=1e-8)
+        assert back == pytest.approx((c - stays) * both.cell**2 * both.native["compression"].size, rel=1e-6, abs=1e-12)
+        np.testing.assert_allclose(spring, max(0.02 - stays, 0.0), atol=1e-8)
+
+
+def test_what_falls_from_a_wall_takes_of_what_came_back():
+    """A wall of 50 mm, of which 8 mm had come back: what falls is no more there to be pressed again."""
+    both = Both(0, loose=0.0, holes=False)
+    for name in ("kind", "rest", "heap"):
+        both.native[name][:] = 0
+    compression = both.native["compression"]
+    compression[:] = 0.012
+    compression[:, compression.shape[1] // 2 :] = 0.062
+    spring = np.full(both.shape, 0.008, np.float32)
+    before = compression.astype(float)
+    fields = np.full(both.shape, 1.0, np.float32), np.zeros(both.shape, np.float32), spring  # walls stand at 45 degrees
+    _native.soil_stabilize((*both.patch(), *fields), None, None, 1e-3, 1000)
+    fell = compression - before
+    assert fell.max() > 0.002 and (fell > 0).any() and (fell == 0).any()
+    np.testing.assert_allclose(spring, np.maximum(0.008 - fell, 0.0), atol=1e-8)
+
+
+@pytest.mark.parametrize("soil", ("wet-sand", "fresh-snow"))
+def test_where_walls_fall_nothing_comes_back_that_was_not_pressed(soil):
+    """Feet that roll tread on what fell beside them: all of it is new, and displaces."""
+    walk = recorded("cmu_12_01_walk", fps=30)
+    pressed = {}
+    for cell in (0.02, 0.01):
+        sim = Simulation(Ground.flat(), SOILS[soil], cell)
+        sim.load(walk, walker.loads(walk))
+        for sample in range(len(walk.time)):
+            sim.run(sample)
+            report = sim.report()
+            assert 0.0 <= report["rebounded_m3"] <= 1.5 * SOILS[soil].rebound * report["pressed_m3"]
+        sim.settle()
+        report = sim.report()
+        assert report["loosened_m3"] > 0.05 * report["pressed_m3"]
+        assert report["rebounded_m3"] > 0.5 * SOILS[soil].rebound * report["pressed_m3"]
+        whole = sim.read("compression", sim.box(sim.reach())).sum(dtype=float) * cell**2
+        firm = report["pressed_m3"] + report["loosened_m3"] - report["rebounded_m3"]
+        assert whole == pytest.approx(firm, rel=1e-5)
+        pressed[cell] = report["pressed_m3"]
+    assert pressed[0.01] == pytest.approx(pressed[0.02], rel=0.03)
+
+
+def test_a_trail_that_is_laid_comes_back_as_one_that_was_pressed():
+    """Who goes on from maps has no record of what came back: it is as if one sole had left all of it."""
+    sim = of(SPRINGY)
+    once = stand(sim)
+    left = {name: once[name] for name in NAMES} | {"pressure_time": np.zeros_like(once["heap"])}
+    again = of(SPRINGY)
+    again._core.lay(WINDOW[0], WINDOW[1], *(left[name] for name in trail.LEFT))
+    stand(again)
+    assert again.report()["pressed_m3"] < 1e-3 * sim.report()["pressed_m3"]
+    np.testing.assert_allclose(again.read("compression", *WINDOW), once["compression"], atol=2e-6)
+
 
 # ---- bulges ------------------------------------------------------------------------------------
 

@@ -82,6 +82,7 @@ def test_prints_scale():
             soft,
             young_modulus=soft.young_modulus * by,
             layer_depth=soft.layer_depth * by,
+            flow_shear=soft.flow_shear * by,
             settle_time=soft.settle_time * np.sqrt(by),
         )
         gait = gait.resample(240.0 / np.sqrt(by))
@@ -94,7 +95,8 @@ def test_prints_scale():
         )
         found.append((pressed.max(), pressed.sum(), heap.sum()))
     for each in found:
-        assert each == pytest.approx(found[0], rel=0.03)
+        assert each[1:] == pytest.approx(found[0][1:], rel=0.02)
+        assert each[0] == pytest.approx(found[0][0], rel=0.05)  # one cell, which a sole's edge may just reach
 
 
 def test_recordings_of_before_tell_their_legs():

@@ -29,18 +29,22 @@ def on_hill(motion, turn):
     return Motion(motion.time, motion.bones, matrix)
 
 
+def level_and_tilted(bones, motion, axis, mass):
+    """A turn about an axis, a walk on level ground, and the same walk turned, on ground that is."""
+    turn = turn_about(axis, TILT)
+    normal = turn[:, 2]
+    land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
+    usual = {"mass": mass, "frame_rate": 120.0}
+    tilted = body.gait_from_bones(bones, on_hill(motion, turn), soles=body.SoleSource(land=land), **usual)
+    return turn, body.gait_from_bones(bones, motion, **usual), tilted
+
+
 @pytest.mark.parametrize("toes", [True, False])
 @pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (1, 2, 0)])
 def test_a_tilted_walk_is_the_walk_tilted(toes, axis):
     skeleton = person(toes=toes)
     motion = walk(skeleton)
-    turn = turn_about(axis, TILT)
-    normal = turn[:, 2]
-    land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
-    flat = body.gait_from_bones(skeleton, motion, mass=70.0, frame_rate=120.0)
-    tilted = body.gait_from_bones(
-        skeleton, on_hill(motion, turn), mass=70.0, frame_rate=120.0, soles=body.SoleSource(land=land)
-    )
+    turn, flat, tilted = level_and_tilted(skeleton, motion, axis, 70.0)
     np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=2e-3)
     np.testing.assert_allclose(
         rotation.matrix(tilted.pose[..., 3:]), turn @ rotation.matrix(flat.pose[..., 3:]), atol=0.02
@@ -148,11 +152,5 @@ def test_a_beast_of_a_level_floor_stays_level(toes, roll, along, across):
 @pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (1, 2, 0)])
 def test_a_beast_of_a_hill_lies_on_it(roll, axis):
     bones, motion = trot(roll)
-    turn = turn_about(axis, TILT)
-    normal = turn[:, 2]
-    land = Simulation(plane(-normal[0] / normal[2], -normal[1] / normal[2]))
-    flat = body.gait_from_bones(bones, motion, mass=30.0, frame_rate=120.0)
-    tilted = body.gait_from_bones(
-        bones, on_hill(motion, turn), mass=30.0, frame_rate=120.0, soles=body.SoleSource(land=land)
-    )
+    turn, flat, tilted = level_and_tilted(bones, motion, axis, 30.0)
     np.testing.assert_allclose(tilted.pose[..., :3], flat.pose[..., :3] @ turn.T, atol=5e-3)

@@ -106,9 +106,12 @@ def test_measured_soils_have_the_numbers_of_the_table():
     assert measured.sinks("measured-dry-sand-lll", 100e3) == pytest.approx(0.08329, rel=1e-3)
 
 
-@pytest.mark.parametrize("name, least, most", (("powder-snow", 0.20, 0.26), ("trodden-snow", 0.02, 0.05)))
+@pytest.mark.parametrize(
+    "name, least, most", (("powder-snow", 0.20, 0.26), ("trodden-snow", 0.02, 0.05), ("packed-snow", 0.006, 0.01))
+)
 def test_a_walker_sinks_as_people_do(name, least, most):
-    """80 kg, as measured, through 0.30 m of snow: the middle of what was stepped on, and the deepest."""
+    """80 kg, as measured, through 0.30 m of snow as it fell, trodden, and packed by machines: the middle of
+    what was stepped on, and the deepest."""
     gait = replace(plates.trial("gait_bmc_walk1"), mass=np.array([80.0]))
     sim = Simulation(Ground.flat(), name, 0.02)
     sim.load(gait, walker.loads(gait, ground=sim))

@@ -114,6 +114,43 @@ def test_pressed_frame_by_frame_as_printed_trail_10_soft22_9_to_12(law, kind):
     assert np.ptp(both.native["compression"][cover > 0]) < 1e-7 and not both.native["compression"][cover == 0].any()
 
 
+@pytest.mark.parametrize("kind", range(3))
+def test_soil_rises_around_a_sole_as_printed_soft22_13_14(kind):
+    """All round alike, where nothing pushes; as printed it rises at its own rate, ours by what each frame displaces."""
+    both, bottom, cover = flat_stand(kind=kind)
+    layer, stiff, nu, tau = (float(v) for v in SOILS[kind, :4])
+    ring, foot, dt = heaps.rings(cover > 0, 1).astype(np.int32), foot_of(500.0), tau / 23.5
+    beside = [(j, i) for j, i in np.argwhere(ring == 1) if 6 <= j < 10 or 7 <= i < 14]  # corners are farther off
+    pressed = twin.depth(twin.stress(foot[0], foot[2], 28, both.cell), layer, stiff)
+    displaced = twin.pushed_aside(pressed, nu) * 28 * both.cell**2
+    whole, printed = twin.raised(displaced, both.cell, (ring == 1).sum()), 0.0
+    for _ in range(40):
+        under = (bottom, cover, np.zeros(both.shape, np.int32))
+        found = _native.soil_compress(both.patch(), under, foot, SOLE, dt)
+        _native.soil_accumulate(
+            both.patch(), (bottom, cover, ring), foot, found["displaced"], PAPER, both.cell, 300.0, 0.0
+        )
+        printed += twin.raised_in_frame(printed, whole, dt, tau)
+        heap = np.array([both.native["heap"][c] for c in beside], float)
+        assert np.ptp(heap) < 1e-6 * whole
+        assert heap[0] * len(beside) <= (1 + 1e-5) * displaced / both.cell**2
+    assert whole <= printed < (1 + dt / tau) * whole
+    assert both.native["heap"].sum(dtype=float) * both.cell**2 == pytest.approx(displaced, rel=1e-5)
+    assert both.native["heap"].sum(dtype=float) == pytest.approx(whole * (ring == 1).sum(), rel=1e-5)
+
+
+@pytest.mark.parametrize("law", (SOLE, UNIFORM))
+def test_stress_adds_up_over_a_stance_as_printed_trail_17(law):
+    both, bottom, cover = flat_stand()
+    ring, dt, loads = np.zeros(both.shape, np.int32), 0.01, (300.0, 500.0, 700.0, 450.0)
+    for load in loads:
+        _native.soil_compress(both.patch(), (bottom, cover, ring), foot_of(load), law, dt)
+    up = np.array([0.0, 0.0, 1.0])
+    printed = twin.accumulated([twin.stress(foot_of(load)[0], up, 28, both.cell) for load in loads], dt)
+    np.testing.assert_allclose(both.native["pressure_time"][cover > 0], printed, rtol=1e-5)
+    assert not both.native["pressure_time"][cover == 0].any()
+
+
 @pytest.mark.parametrize("push, threshold", (((0, 0), 300.0), ((60, -25), 200.0), ((60, -25), 20.0), ((-9, 4), 90.0)))
 def test_border_cells_share_as_printed_trail_11_12_13(push, threshold):
     both, bottom, cover = flat_stand()

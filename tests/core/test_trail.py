@@ -135,6 +135,21 @@ def test_a_bake_tells_what_a_map_does_not_hold(tmp_path):
     assert any("averaged" in each for each in bake.report["warnings"])
     trodden = Ground.read(tmp_path / "a" / "maps_start.exr")  # nobody has walked yet
     assert np.array_equal(trodden.trail.rest, maps.read(tmp_path / "a" / "maps_start.exr").planes["rest"])
+    assert not trodden.trail.compression.any()
+
+
+def test_the_first_map_has_the_trail_of_before(tmp_path):
+    """As a picture and by name: who goes on from it goes on from that trail."""
+    for folder, ground in (("a", None), ("b", "a/maps_final.exr")):
+        where = Ground.flat() if ground is None else Ground.read(tmp_path / ground)
+        for _ in Bake(standing(), where, "mud", tmp_path / folder, cell_size=0.02).run():
+            pass
+    before = maps.read(tmp_path / "a" / "maps_final.exr")
+    start = maps.read(tmp_path / "b" / "maps_start.exr")
+    for name in ("compression", "heap", "pressure_time"):
+        assert before.planes[name].any() and np.array_equal(start.planes[name], before.planes[name]), name
+    assert np.array_equal(start.planes["B"], before.planes["compression"])
+    assert np.array_equal(Ground.read(tmp_path / "b" / "maps_start.exr").trail.heap, before.planes["heap"])
 
 
 @pytest.mark.parametrize("name", ["height", "Height", "Z", "V", "Y", "height.Z", "shot.height", "R"])

@@ -36,6 +36,21 @@ def on_two_feet(time, com, pose, rate):
     )
 
 
+def on_one_foot(time, com, pose, rate, **more):
+    """What one of 70 kg did on one rigid foot of one point. com: (T, 3); pose: (T, 7); more: members that differ"""
+    usual = {"mass": [70.0], "point": np.zeros((1, 3)), "point_part": [0], "point_role": [1]}
+    return Gait(
+        time=time,
+        com=com[None],
+        pose=pose[None],
+        limb_walker=[0],
+        part_limb=[0],
+        soles=(SOLE,),
+        frame_rate=rate,
+        **{**usual, **more},
+    )
+
+
 def two_feet(seed=1, rate=120.0, count=300, hover=0.0):
     """A random walk of a body over two one-point feet that take turns."""
     random = np.random.default_rng(seed)

@@ -10,8 +10,7 @@ from desire_path.ground.sim import Ground, Simulation
 from desire_path.ground.soil import Soil
 from desire_path.loads import walker
 from desire_path.motion import size
-from desire_path.motion.gait import Gait
-from tests.core.test_walker import SOLE, on_two_feet
+from tests.core.test_walker import on_one_foot, on_two_feet
 
 # ---- what the design says of feet that land, and of those that stand on something else ---------------------
 
@@ -73,24 +72,10 @@ def test_a_foot_hits_as_fast_as_it_lands(speed, weights):
     """TRAIL (3) (4): by the speed of the foot, under a body that stays where it is."""
     rate, tau = 240.0, 0.1
     time = np.arange(int(2.0 * rate)) / rate
-    pose = np.zeros((1, len(time), 7))
-    pose[..., 3] = 1.0
-    pose[0, :, 2] = np.maximum(speed * (1.0 - time), 0.0)
-    com = np.tile((0.0, 0.0, 1.0), (1, len(time), 1))
-    gait = Gait(
-        time=time,
-        com=com,
-        mass=[70.0],
-        pose=pose,
-        limb_walker=[0],
-        part_limb=[0],
-        soles=(SOLE,),
-        point=np.zeros((1, 3)),
-        point_part=[0],
-        point_role=[1],
-        frame_rate=rate,
-        leg=[size.LEG],
-    )
+    pose = np.zeros((len(time), 7))
+    pose[:, 3] = 1.0
+    pose[:, 2] = np.maximum(speed * (1.0 - time), 0.0)
+    gait = on_one_foot(time, np.tile((0.0, 0.0, 1.0), (len(time), 1)), pose, rate, leg=[size.LEG])
     touching = (time >= 1.0).astype("u1")[None]
     force, point = np.zeros((1, len(time), 3)), np.zeros((1, len(time), 3))
     _native.foot_force(walker.native_gait(gait), touching, np.zeros((1, len(time))), 1, tau, False, force, point)
@@ -105,24 +90,12 @@ def test_a_heel_lands_with_the_speed_of_the_heel():
     rate, tau = 240.0, 0.1
     time = np.arange(int(1.5 * rate)) / rate
     spin = np.minimum(time - 1.0, 0.0)  # the foot turns about y while it comes down
-    pose = np.zeros((1, len(time), 7))
-    pose[0, :, 2] = -1.0 * spin
-    pose[0, :, 3], pose[0, :, 5] = np.cos(2.0 * spin), np.sin(2.0 * spin)  # 4 rad/s: toes come down 0.8 m/s slower
+    pose = np.zeros((len(time), 7))
+    pose[:, 2] = -1.0 * spin
+    pose[:, 3], pose[:, 5] = np.cos(2.0 * spin), np.sin(2.0 * spin)  # 4 rad/s: toes come down 0.8 m/s slower
     points = np.array([(-0.1, 0.0, 0.0), (0.1, 0.0, 0.0)])
-    gait = Gait(
-        time=time,
-        com=np.tile((0.0, 0.0, 1.0), (1, len(time), 1)),
-        mass=[70.0],
-        pose=pose,
-        limb_walker=[0],
-        part_limb=[0],
-        soles=(SOLE,),
-        point=points,
-        point_part=[0, 0],
-        point_role=[0, 1],
-        frame_rate=rate,
-        leg=[size.LEG],
-    )
+    both = {"point": points, "point_part": [0, 0], "point_role": [0, 1], "leg": [size.LEG]}
+    gait = on_one_foot(time, np.tile((0.0, 0.0, 1.0), (len(time), 1)), pose, rate, **both)
     lands = -np.gradient(walker.point_places(gait)[..., 2], time, axis=1)[:, int(rate) - 8]
     assert abs(lands[0] - lands[1]) > 0.7
     high = np.zeros((2, len(time)))

@@ -6,8 +6,7 @@ from reference import walker as twin
 
 from desire_path import _native
 from desire_path.loads import walker
-from desire_path.motion.gait import Gait
-from tests.core.test_walker import SOLE, two_feet
+from tests.core.test_walker import on_one_foot, two_feet
 
 # ---- twins -------------------------------------------------------------------------------------------
 
@@ -67,24 +66,12 @@ def hop(seed, rate=FINE, count=480):
     press = np.where(phase < 0.2, 2.5 * np.pi / 2 * np.sin(np.pi * np.clip(phase / 0.2, 0, 1)), 0.0)
     v = np.cumsum((press - press[: int(rate)].mean()) * 9.81) / rate
     z = np.cumsum(v - v[: int(rate)].mean()) / rate + 1.0 + random.normal(0, 5e-4, count)
-    pose = np.zeros((1, count, 7))
-    pose[0, :, 3] = 1.0
+    pose = np.zeros((count, 7))
+    pose[:, 3] = 1.0
     swing = np.clip((phase - 0.2) / 0.3, 0, 1)
-    pose[0, :, 2] = 0.15 * np.sin(np.pi * swing)
-    pose[0, :, 0] = np.floor(time / 0.5) + swing**2 * (3 - 2 * swing)
-    return Gait(
-        time=time,
-        com=np.stack([2.0 * time, 0 * z, z], axis=1)[None],
-        mass=[70.0],
-        pose=pose,
-        limb_walker=[0],
-        part_limb=[0],
-        soles=(SOLE,),
-        point=np.zeros((1, 3)),
-        point_part=[0],
-        point_role=[1],
-        frame_rate=rate,
-    ), press
+    pose[:, 2] = 0.15 * np.sin(np.pi * swing)
+    pose[:, 0] = np.floor(time / 0.5) + swing**2 * (3 - 2 * swing)
+    return on_one_foot(time, np.stack([2.0 * time, 0 * z, z], axis=1), pose, rate), press
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -118,21 +105,9 @@ def test_sphere_from_two_and_a_half_metres():
     for rate in (60.0, 120.0, 240.0, 24.0):
         time = np.arange(int(2 * rate)) / rate
         z = np.maximum(2.5 - 0.5 * 9.81 * time**2, 0.0)
-        pose = np.zeros((1, len(time), 7))
-        pose[0, :, 2], pose[0, :, 3] = z, 1.0
-        gait = Gait(
-            time=time,
-            com=pose[:, :, :3] + (0, 0, 0.1),
-            mass=[50.0],
-            pose=pose,
-            limb_walker=[0],
-            part_limb=[0],
-            soles=(SOLE,),
-            point=[[0, 0, 0]],
-            point_part=[0],
-            point_role=[1],
-            frame_rate=rate,
-        )
+        pose = np.zeros((len(time), 7))
+        pose[:, 2], pose[:, 3] = z, 1.0
+        gait = on_one_foot(time, pose[:, :3] + (0, 0, 0.1), pose, rate, mass=[50.0])
         loads = walker.loads(gait, "impulse")
         peaks.append(-loads.force[0, :, 2].min())
     assert peaks[:3] == pytest.approx([2241] * 3, rel=0.05)

@@ -35,6 +35,26 @@ def pushed_aside(pressed, nu):
     return pressed - (1.0 - 2.0 * nu) * pressed
 
 
+def modulus(soil, plants):
+    """TRAIL (9): E(p) = E_g(p) + E_v(p)."""
+    return soil + plants
+
+
+def raised(displaced, cell, neighbours):
+    """SOFT22 (13): dL_inc = dV/(cell_area * neighbours), by which each cell around the sole is to rise."""
+    return displaced / (cell**2 * neighbours)
+
+
+def raised_in_frame(accumulated, whole, dt, tau):
+    """SOFT22 (14): h_frame = dt/tau dL_inc if h_acc < dL_inc, else 0."""
+    return dt / tau * whole if accumulated < whole else 0.0
+
+
+def accumulated(stresses, dt):
+    """TRAIL (17): the integral of sigma over the time that was walked."""
+    return sum(sigma * dt for sigma in stresses)
+
+
 def border_shares(cells, point, force, normal, threshold):
     """TRAIL (11)-(13): w_i/sum_k w_k of border cells at positions (n, 3)."""
     parallel = force - np.dot(force, normal) * normal

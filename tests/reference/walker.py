@@ -1,4 +1,4 @@
-"""Slow literal twins of the walker: TRAIL (3) (4), SOFT22 (3)-(8), MODEL 4.2 and 4.3.
+"""Slow literal twins of the walker: TRAIL (3) (4), SOFT22 (1), (3)-(8), MODEL 4.2 and 4.3.
 
 For limbs of one part with one contact point each; everything is spelled out over plain arrays.
 """
@@ -13,6 +13,11 @@ G = 9.81
 def share_right(com, left, right):
     across = right - left
     return min(max((com - left) @ across / (across @ across), 0.0), 1.0)  # SOFT22 (5), denominator mended
+
+
+def tilt(target, com, along, turning, alpha, beta):
+    """SOFT22 (1): T = alpha (p_target - p_com).u + beta dtheta/dt; the sign of beta mended, or a swing would grow."""
+    return alpha * np.dot(np.subtract(target, com), along) - beta * turning
 
 
 def smoothstep(x):

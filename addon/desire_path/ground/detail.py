@@ -50,14 +50,15 @@ DETAILS: Mapping[str, Detail] = MappingProxyType(
         "wet-sand": Detail(0.0003, 0.006, 0.10, 0.0015, 0.003, fray=0.0008, fray_size=0.012),
         "earth": Detail(0.0006, 0.007, 0.24, 0.002, 0.007, fray=0.0026, fray_size=0.018),
         "wet-soil": Detail(0.0003, 0.006, 0.04, 0.002, 0.006, fray=0.0015, fray_size=0.018),
-        "mud": Detail(0.0, 0.010, 0.0, vein_height=0.0035, vein_size=0.030, fray=0.0030, fray_size=0.050),
+        "mud": Detail(0.0, 0.010, 0.0, vein_height=0.0026, vein_size=0.036, fray=0.0030, fray_size=0.050),
         "snow": Detail(0.0010, 0.010, 0.24, 0.003, 0.011, fray=0.0050, fray_size=0.050),
+        "crust-snow": Detail(0.0005, 0.010, 0.06, 0.003, 0.009, fray=0.0030, fray_size=0.030),
         "packed-earth": Detail(0.0004, 0.006, 0.14, 0.0015, 0.004, fray=0.0010, fray_size=0.012),
     }
 )
 
 WALLS = MappingProxyType(
-    {"snow": 0.0036, "earth": 0.0022, "mud": 0.0018}
+    {"snow": 0.0026, "earth": 0.0022, "mud": 0.0018}
 )  # deviation by which high walls are rough [m]
 
 

@@ -113,7 +113,7 @@ PAPER: Mapping[str, Kind] = MappingProxyType(
 )
 
 # Wear of carex follows `python -m desire_path fit tests/scenes/lanes/cole.csv --kind carex`, from the cover of Cole's
-# lanes; how it grows again is fitted in the same way. tests/core/test_lane.py holds it to lanes of another seed, on
+# lanes; how it grows again is fitted likewise. tests/core/test_lane.py holds it to lanes of another seed, on
 # cells of 1 and 2 cm. Lycopodium was not measured: it is carex with what tells the two apart in TRAIL Table 1, 0.8 of
 # the reserve and wear from 5 degrees on.
 #

@@ -1,6 +1,6 @@
 """Ground that answers at once: bodies are moved over it by hand, one step after the other, through a live motion.
 
-    PressBody, pose --move--> as many steps as the way is long --Simulation.push, run--> ground pressed so far
+    PressBody, pose --move--> as many steps as the path is long --Simulation.push, run--> ground pressed so far
                     --lift--> the stroke has ended, its rims rest        --undo--> as it was before that stroke
 
 A body with a mass sinks until the ground carries it; one without carves: the ground makes way, whatever it weighs.

@@ -89,17 +89,27 @@ def _soil(megapascal: float, nu: float, rest_angle_deg: float, tau: float, shear
     )
 
 
+# By how much ground shears along with a sole before it flows off ahead of it (Wong, Theory of Ground Vehicles, K):
+# fresh snow, loose sand, firm sandy ground, packed clay; of other ground that of the nearest to it [m]
+POWDER, LOOSE, FIRM, CLAY = 0.0375, 0.025, 0.01, 0.006
+
 # Middle of each range in TRAIL Table 1 and SOFT22 Table 1. Loose grains shear by 1 to 2.5 cm before they carry
 # (Janosi and Hanamoto 1961; Wong, Theory of Ground Vehicles); what holds together by more than friction does not slip.
 # Walls, roughness and how it bulges, ours, are for looks: depths and volumes are those of the tables.
 _SOILS = {
-    "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01, wall_angle=34.0, roughness=0.12, grain_size=0.01),
-    "snow": _soil(0.375, 0.05, 38.0, 0.2, 0.01, wall_angle=80.0, roughness=0.4, grain_size=0.012, flow_time=0.3),
-    "mud": _soil(0.625, 0.35, 15.0, 0.15, roughness=0.25, grain_size=0.02, heave=0.03, water_depth=0.024),
-    "soil": _soil(1.25, 0.35, 30.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01),
-    "soft-soil": _soil(1.35, 0.2, 12.5, 0.1),
-    "dry-soil": _soil(0.35, 0.35, 7.5, 0.1),
-    "wet-soil": _soil(0.5, 0.3, 12.5, 0.1, wall_angle=80.0, roughness=0.3, grain_size=0.015, rebound=0.25),
+    "dry-sand": _soil(2.25, 0.5, 32.0, 0.05, 0.01, wall_angle=34.0, roughness=0.12, grain_size=0.01, flow_shear=LOOSE),
+    "snow": _soil(
+        0.375, 0.05, 38.0, 0.2, 0.01, wall_angle=80.0, roughness=0.4, grain_size=0.012, flow_time=0.3, flow_shear=POWDER
+    ),
+    "mud": _soil(
+        0.625, 0.35, 15.0, 0.15, roughness=0.25, grain_size=0.02, heave=0.03, water_depth=0.024, flow_shear=FIRM
+    ),
+    "soil": _soil(1.25, 0.35, 30.0, 0.05, wall_angle=65.0, roughness=0.5, grain_size=0.01, flow_shear=FIRM),
+    "soft-soil": _soil(1.35, 0.2, 12.5, 0.1, flow_shear=LOOSE),
+    "dry-soil": _soil(0.35, 0.35, 7.5, 0.1, flow_shear=LOOSE),
+    "wet-soil": _soil(
+        0.5, 0.3, 12.5, 0.1, wall_angle=80.0, roughness=0.3, grain_size=0.015, rebound=0.25, flow_shear=FIRM
+    ),
 }
 # For looks alone: as close-ups of prints show them, and as deep beside the others as people know them.
 _SOILS |= {
@@ -114,13 +124,38 @@ _SOILS |= {
         grain_size=0.03,
         rebound=0.02,
         flow_time=0.3,
+        flow_shear=POWDER,
     ),
     "fresh-snow": _soil(
-        0.17, 0.03, 38.0, 0.1, wall_angle=78.0, roughness=0.25, grain_size=0.025, rebound=0.03, flow_time=0.3
+        0.17,
+        0.03,
+        38.0,
+        0.1,
+        wall_angle=78.0,
+        roughness=0.25,
+        grain_size=0.025,
+        rebound=0.03,
+        flow_time=0.3,
+        flow_shear=POWDER,
     ),
-    "wet-sand": _soil(3.5, 0.25, 42.0, 0.05, 0.002, wall_angle=76.0, roughness=0.3, grain_size=0.008, rebound=0.08),
-    "packed-snow": _soil(5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05),
-    "packed-earth": _soil(20.0, 0.3, 38.0, 0.05, wall_angle=65.0, roughness=0.35, grain_size=0.015, rebound=0.12),
+    "wet-sand": _soil(
+        3.5, 0.25, 42.0, 0.05, 0.002, wall_angle=76.0, roughness=0.3, grain_size=0.008, rebound=0.08, flow_shear=FIRM
+    ),
+    "packed-snow": _soil(
+        5.0, 0.05, 40.0, 0.1, wall_angle=75.0, roughness=0.4, grain_size=0.008, rebound=0.05, flow_shear=LOOSE
+    ),
+    "packed-earth": _soil(
+        20.0,
+        0.3,
+        38.0,
+        0.05,
+        wall_angle=65.0,
+        roughness=0.35,
+        grain_size=0.015,
+        rebound=0.12,
+        flow_shear=CLAY,
+        heave=0.02,
+    ),
 }
 # Sumner, O'Brien and Hodgins 1999, Table 1, read at second hand (in the review arXiv 2302.08683): inside slope as the
 # wall angle, outside slope as the rest angle, roughness, and compression alpha = 2 nu. Their ground has no stiffness:
@@ -133,6 +168,7 @@ _SOILS |= {
         rest_angle=min(outside, NUMBERS["rest_angle"].high),
         roughness=0.2,
         poisson_ratio=alpha / 2.0,
+        flow_shear=_SOILS[stiff].flow_shear,
     )
     for kind, stiff, inside, outside, alpha in (
         ("sand", "dry-sand", 0.8, 0.436, 0.3),
@@ -152,8 +188,11 @@ _SOILS |= {
         flow_time=0.3,
         crust_depth=0.02,
         crust_strength=3e5,
+        flow_shear=POWDER,
+        heave=0.05,
     )
 }  # it bears a fox, not a person
+WIND = 350.0  # density of snow that wind has packed [kg/m^3]
 PACKED, PACKED_BY = 499.5, 35e3  # density to which a foot packs snow, and its pressure: MODEL 6.14 [kg/m^3], [Pa]
 
 
@@ -169,6 +208,7 @@ def snow(density: float, depth: float = 0.3, **others: float) -> Soil:
         "poisson_ratio": 0.0,
         "rest_angle": math.radians(38.0),
         "settle_time": 0.05,
+        "flow_shear": POWDER if density < WIND else LOOSE,
     }
     return Soil(layer_depth=depth, snow_density=density, **{**usual, **others})
 
@@ -177,7 +217,7 @@ def snow(density: float, depth: float = 0.3, **others: float) -> Soil:
 # the edges of what is deep crumble a little.
 _SOILS |= {
     name: snow(density, wall_angle=math.radians(85.5), roughness=0.2, grain_size=0.02)
-    for name, density in (("powder-snow", 100.0), ("wind-snow", 350.0), ("trodden-snow", 450.0))
+    for name, density in (("powder-snow", 100.0), ("wind-snow", WIND), ("trodden-snow", 450.0))
 }
 BY_DEPTH = tuple(
     sorted(
@@ -201,6 +241,7 @@ def _measured(name: str) -> Soil:
         bekker_cohesion=1e3 * cohesion,
         bekker_friction=1e3 * friction,
         bekker_power=power,
+        flow_shear=POWDER if is_snow else FIRM,
     )
 
 

@@ -256,7 +256,7 @@ def _stalk(sort: Stems, length: float, random: np.random.Generator) -> list[tupl
 
 
 def _leaf(start: ArrayLike, along: ArrayLike, side: ArrayLike, width: float) -> _Part:
-    """A pointed leaf of two triangles from `start`, `along` long, `side` the way of its width."""
+    """A pointed leaf of two triangles from `start`, `along` long, `side` the direction of its width."""
     start, along, half = np.asarray(start, float), np.asarray(along, float), 0.5 * width * np.asarray(side, float)
     middle = start + 0.4 * along
     return np.array([start, middle - half, start + along, middle + half]), [(0, 1, 2, 3)]

@@ -106,10 +106,95 @@ TEST(its_points_go_as_its_poses_and_its_slip_say)
     stand_drop(&s);
 }
 
+#define HOLDS 0.02  // [m]
+
+// what flows of a way along x of the sole in so many steps, whose place changes as it goes, and turning about its middle
+static double flows(Limb* limb, double way, double turn, int steps)
+{
+    DpSoil soil = soft();
+    soil.flow_shear = (float)HOLDS;
+    const DpSoilPatch patch = {.nx = 21, .ny = 11, .cell = CELL, .x0 = 3.0, .y0 = 5.0};
+    double            sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double x = 3.1 + way * k / steps, z = 0.5;
+        DpSlide      slide = {.by_z = {0.004 / z, 0.0}, .by_x = {0.0, turn / steps}};
+        slide.by_y[0] = -turn / steps;
+        slide.at[0] = way / steps - 0.004 + 0.05 * turn / steps;  // the place turns on the spot
+        slide.at[1] = -(x - 3.1) * turn / steps;
+        dp_limb_shears(limb, &patch, &soil, dp_vec3(x, 5.1, z), &slide);
+        const double radius = 0.5 * limb->length, around = turn / steps * radius;
+        sum += (1.0 - slide.held) * hypot(way / steps, around * sqrt(0.5));
+    }
+    return sum;
+}
+
+// of a way, or of a turn on the spot, flows what is longer than the soil holds, in any number of steps
+TEST(a_shear_holds_what_slides_a_little)
+{
+    for (int turns = 0; turns < 2; ++turns)
+        for (int k = 0; k < 3; ++k) {
+            static const double far[] = {0.002, 0.02, 0.3};
+            for (int steps = 1; steps < 400; steps *= 19) {
+                Limb         limb = {.length = 0.2};
+                const double wanted = far[k] + HOLDS * expm1(-far[k] / HOLDS);
+                const double turn = far[k] / (0.1 * sqrt(0.5));
+                const double found =
+                    turns ? flows(&limb, 0.0, turn, steps) : flows(&limb, far[k], 0.0, steps);
+                CHECK_CLOSE(found, wanted, 1e-6);
+            }
+        }
+    for (int k = 0; k < 2; ++k) {  // in a walk: all but what is held of a way of 0.3 m
+        DpSoil        soil = soft();
+        static double cut[2];
+        soil.flow_shear = k ? (float)HOLDS : 0.0f;
+        slide(WAY, 0.0);
+        stand_load(&s, &soil, dp_sim_options_default());
+        CHECK(dp_sim_run(s.sim, TIMES - 20) == DP_OK);
+        cut[k] = dp_sim_report(s.sim).loosened;
+        stand_drop(&s);
+        if (k) CHECK_CLOSE(cut[1] / cut[0], 1.0 - HOLDS / WAY, 0.02);
+    }
+}
+
+// a sole that is set down again begins anew: its second short slide is held as the first was
+TEST(each_stance_shears_anew)
+{
+    DpSoil soil = soft();
+    soil.flow_shear = (float)HOLDS;
+    stand_make(&s, 1);
+    for (int k = 0; k < 2; ++k) {
+        stand_on(&s, 0, 100 * k, 100 * k + 80, k, 0.0, LOAD);
+        for (int t = 100 * k + 40; t < 100 * k + 90; ++t)
+            s.pose[0][t][0] = s.point[0][t][0] = k + 5e-4 * (t - 100 * k - 40);
+    }
+    for (int t = 90; t < 100; ++t) s.pose[0][t][2] = 0.3;
+    stand_load(&s, &soil, dp_sim_options_default());
+    CHECK(dp_sim_run(s.sim, 95) == DP_OK);
+    const double first = dp_sim_report(s.sim).loosened;
+    CHECK(dp_sim_run(s.sim, TIMES - 6) == DP_OK);
+    CHECK(first > 0.0);
+    CHECK_CLOSE(dp_sim_report(s.sim).loosened, 2.0 * first, 1e-3);
+    stand_drop(&s);
+}
+
+// nothing flows until half of what has sheared is sheared back, and it flows the other way then
+TEST(who_goes_back_shears_anew)
+{
+    Limb limb = {.length = 0.2};
+    CHECK(flows(&limb, 0.4, 0.0, 100) > 0.37);
+    CHECK_NEAR(limb.shear.field[0], HOLDS, 1e-6);
+    CHECK_NEAR(flows(&limb, -0.99 * log(2.0) * HOLDS, 0.0, 20), 0.0, 1e-6);
+    CHECK_CLOSE(flows(&limb, -0.4, 0.0, 1000), 0.4 - HOLDS, 2e-3);
+    CHECK_NEAR(limb.shear.field[0], -HOLDS, 1e-6);
+}
+
 int main(void)
 {
     RUN(what_is_in_its_way_lies_ahead_of_it);
     RUN(a_sole_that_turns_on_the_spot_pushes_to_both_sides);
+    RUN(a_shear_holds_what_slides_a_little);
+    RUN(each_stance_shears_anew);
+    RUN(who_goes_back_shears_anew);
     RUN(its_points_go_as_its_poses_and_its_slip_say);
     return check_done();
 }

@@ -1,5 +1,6 @@
 // tests of sim_slide.c: what soles held slides until it rests, at once or in its time. MODEL 6.4
 #include "base/alloc.h"
+#include "base/stream.h"
 #include "stand.h"
 
 #define SIDE 260  // cells around the origin that are looked at
@@ -115,25 +116,30 @@ TEST(what_a_sole_held_slides_until_it_rests)
     }
 }
 
-// walls of a print that fall are told as loosened
+// walls of a print that fall are told as loosened, at once or in their time
 TEST(walls_that_fall_are_counted)
 {
-    DpSoil soil = dp_soil_default();
-    soil.wall_angle = 0.8f;
-    begin(&soil, 1);
-    DpLease*     lease = dp_lease_create();
-    DpSoilPatch* patch = NULL;
-    CHECK(dp_terrain_acquire(stand.terrain, lease, dp_cells(0, 0, 10, 10), &patch) == DP_OK);
-    for (int y = 0; y < 10; ++y)
-        for (int x = 0; x < 10; ++x) patch->compression[y * patch->row + x] = 0.1f;
-    dp_terrain_commit(stand.terrain, lease, dp_cells(0, 0, 10, 10));
-    dp_lease_destroy(lease);
-    Limb* limb = &stand.sim->limb[0];
-    limb->trodden = dp_cells(0, 0, 10, 10), limb->loosened = 1.0;
-    CHECK(dp_limb_settle(stand.sim, limb, 0, &stand.sim->scratch[0]) == DP_OK);
-    CHECK_CLOSE(limb->loosened - 1.0, look(5, 5).volume, 1e-5);
-    CHECK(limb->loosened > 1.0 + 1e-5);
-    stand_drop(&stand);
+    const double takes[3] = {0.0, 0.3, 0.001};  // at once, over many samples, within one
+    for (int n = 0; n < 3; ++n) {
+        DpSoil soil = flowing(takes[n]);
+        soil.wall_angle = 0.8f;
+        begin(&soil, 1);
+        DpLease*     lease = dp_lease_create();
+        DpSoilPatch* patch = NULL;
+        CHECK(dp_terrain_acquire(stand.terrain, lease, dp_cells(0, 0, 10, 10), &patch) == DP_OK);
+        for (int y = 0; y < 10; ++y)
+            for (int x = 0; x < 10; ++x) patch->compression[y * patch->row + x] = 0.1f;
+        dp_terrain_commit(stand.terrain, lease, dp_cells(0, 0, 10, 10));
+        dp_lease_destroy(lease);
+        Limb* limb = &stand.sim->limb[0];
+        limb->trodden = dp_cells(0, 0, 10, 10), limb->loosened = 1.0;
+        for (int k = 0; k < (n == 1 ? 150 : 1); ++k) {
+            CHECK(dp_limb_settle(stand.sim, limb, k, &stand.sim->scratch[0]) == DP_OK);
+            CHECK_NEAR(limb->loosened - 1.0, look(5, 5).volume, 1e-9);
+        }
+        CHECK(limb->loosened > 1.0 + 1e-5);
+        stand_drop(&stand);
+    }
 }
 
 // in slow soil a pile goes one cell a sweep on every side, and slides on; at the end it rests as sand does
@@ -237,6 +243,30 @@ TEST(prints_that_were_left_slide_by_themselves)
     stand_drop(&stand);
 }
 
+// a state keeps the prints that slide; one that holds none where it tells of one is damaged, and changes nothing
+TEST(prints_that_slide_are_kept_with_the_state)
+{
+    const DpSoil soil = flowing(1.0);
+    for (int damaged = 0; damaged < 2; ++damaged) {
+        DpStateWriter writer = {0};
+        begin(&soil, 1);
+        CHECK(dp_make_room(&stand.sim->slide, 1, sizeof *stand.sim->slide));
+        stand.sim->slide[0] = damaged ? dp_cells(5, 5, 0, 3) : dp_cells(-3, -4, 6, 7);
+        stand.sim->slides = 1;
+        CHECK(dp_sim_save_state(stand.sim, &writer) == DP_OK);
+        stand_drop(&stand);
+        begin(&soil, 1);
+        CHECK(dp_sim_load_state(stand.sim, writer.bytes, writer.size) ==
+              (damaged ? DP_BAD_FILE : DP_OK));
+        CHECK(stand.sim->slides == !damaged);
+        if (!damaged)
+            CHECK(stand.sim->slide[0].i0 == -3 && stand.sim->slide[0].j1 == 3 &&
+                  stand.sim->slide[0].i1 == 3 && stand.sim->slide[0].j0 == -4);
+        dp_write_drop(&writer);
+        stand_drop(&stand);
+    }
+}
+
 int main(void)
 {
     RUN(a_soil_that_takes_time_goes_a_cell_in_its_share_of_it);
@@ -246,5 +276,6 @@ int main(void)
     RUN(a_print_is_left_where_its_limb_stands_elsewhere);
     RUN(a_stance_beside_a_sliding_print_keeps_it);
     RUN(prints_that_were_left_slide_by_themselves);
+    RUN(prints_that_slide_are_kept_with_the_state);
     return check_done();
 }

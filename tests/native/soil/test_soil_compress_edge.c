@@ -1,18 +1,21 @@
-// tests of soil_compress.c: soles over an edge, over a step, and over what they have heaped. TRAIL (10)
+// tests of soil_compress.c: soles over an edge, over a step, over what they have heaped, of many columns and of
+// tall ones. TRAIL (10)
 #include "check.h"
 #include "ground.h"
+
+static DpSoil firm(void)
+{
+    DpSoil soil = dp_soil_default();
+    soil.young_modulus = 0.5e6f, soil.poisson_ratio = 0.35f;
+    soil.settle_time = 0.1f, soil.rest_angle = 0.5f;
+    return soil;
+}
 
 // a sole with half of it over no ground is as deep as a whole one, and what is left of it gets no more
 TEST(over_an_edge)
 {
     const BoxSole flat = {.length = 0.24, .width = 0.10};
-    const DpSoil  soil = {.layer_depth = 0.3f,
-                          .young_modulus = 0.5e6f,
-                          .poisson_ratio = 0.35f,
-                          .settle_time = 0.1f,
-                          .rest_angle = 0.5f,
-                          .wall_angle = 1.5707964f,
-                          .grain_size = 0.012f};
+    const DpSoil  soil = firm();
     for (int law = 0; law < 2; ++law)
         for (int tilted = 0; tilted < 2; ++tilted) {
             Ground  whole = ground_make(50, 40, 0.01, soil), half = ground_make(50, 40, 0.01, soil);
@@ -42,13 +45,7 @@ TEST(over_an_edge)
 // lower ground beside a step carries nothing: what stands on the step goes as much deeper as it is less
 TEST(over_a_step)
 {
-    const DpSoil soil = {.layer_depth = 0.3f,
-                         .young_modulus = 0.5e6f,
-                         .poisson_ratio = 0.35f,
-                         .settle_time = 0.1f,
-                         .rest_angle = 0.5f,
-                         .wall_angle = 1.5707964f,
-                         .grain_size = 0.012f};
+    const DpSoil soil = firm();
     for (int law = 0; law < 2; ++law)
         for (int from = 17; from <= 25; from += 4) {
             Ground whole = ground_make(50, 40, 0.01, soil), step = ground_make(50, 40, 0.01, soil);
@@ -74,13 +71,7 @@ TEST(over_a_step)
 // `uniform` asks where the body meets the ground that was there before it came
 TEST(met_ground_counts)
 {
-    const DpSoil soil = {.layer_depth = 0.3f,
-                         .young_modulus = 0.5e6f,
-                         .poisson_ratio = 0.35f,
-                         .settle_time = 0.1f,
-                         .rest_angle = 0.5f,
-                         .wall_angle = 1.5707964f,
-                         .grain_size = 0.012f};
+    const DpSoil soil = firm();
     Ground       ground = ground_make(50, 40, 0.01, soil);
     float        met[2000] = {0.0f};
     ground_sole(&ground, (BoxSole){.length = 0.24, .width = 0.10});
@@ -101,8 +92,59 @@ TEST(met_ground_counts)
     ground_free(&ground);
 }
 
+// the load is carried by what its sum can tell, so that a sole of many columns needs few rounds, as one of few does
+TEST(many_columns_do_not_take_longer)
+{
+    const DpSoil snow = {.layer_depth = 0.5f,
+                         .settle_time = 0.1f,
+                         .rest_angle = 0.5f,
+                         .snow_density = 150.0f,
+                         .young_modulus = 0.3e6f,
+                         .wall_angle = 1.5707964f};
+    DpSoil       sand = dp_soil_default();
+    sand.young_modulus = 0.6e6f;
+    for (int law = 0; law < 2; ++law)
+        for (int k = 0; k < 24; ++k) {  // rolls over its ball
+            const double cell = k % 2 ? 0.01 : 0.004;
+            const int    nx = (int)(0.36 / cell), ny = (int)(0.16 / cell);
+            Ground       ground = ground_make(nx, ny, cell, law ? snow : sand);
+            DpPressed    pressed;
+            ground_sole(&ground, (BoxSole){.length = 0.28, .width = 0.1, .pitch = -0.02 * (k - 6)});
+            const DpFootForce foot = ground_load(600.0 + 11.0 * k);
+            CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_SOLE, 1.0,
+                                   &pressed) == DP_OK);
+            CHECK(pressed.rounds > 0 && pressed.rounds <= 40);
+            CHECK_CLOSE(ground_sum(&ground, ground.pressure_time), 600.0 + 11.0 * k, 1e-5);
+            ground_free(&ground);
+        }
+}
+
+// what reaches up by more than a metre: the lower part alone carries
+TEST(tall_soles_stand_on_what_is_low)
+{
+    Ground    ground = ground_make(50, 40, 0.01, dp_soil_default());
+    DpPressed pressed, low;
+    ground_sole(&ground, (BoxSole){.length = 0.24, .width = 0.10});
+    const DpFootForce foot = ground_load(700.0);
+    for (int j = 0; j < 40; ++j)
+        for (int i = 20; i < 50; ++i)
+            if (ground.imprint.cover[j * 50 + i] > 0.0f) ground.imprint.bottom[j * 50 + i] = 9.0f;
+    CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_SOLE, 10.0,
+                           &pressed) == DP_OK);
+    ground_free(&ground);
+    ground = ground_make(50, 40, 0.01, dp_soil_default());
+    ground_sole(&ground, (BoxSole){.x = -0.085, .length = 0.07, .width = 0.10});
+    CHECK(dp_soil_compress(&ground.patch, &ground.imprint, &foot, DP_CONTACT_SOLE, 10.0, &low) ==
+          DP_OK);
+    CHECK_CLOSE(pressed.area, low.area, 1e-6);
+    CHECK_CLOSE(pressed.deepest, low.deepest, 1e-6);
+    ground_free(&ground);
+}
+
 int main(void)
 {
+    RUN(many_columns_do_not_take_longer);
+    RUN(tall_soles_stand_on_what_is_low);
     RUN(over_an_edge);
     RUN(over_a_step);
     RUN(met_ground_counts);

@@ -23,12 +23,14 @@ static double load_of(const DpSoil* soil)
 
 static const BoxSole SOLE = {.x = -0.3, .z = 0.0, .length = LENGTH, .width = WIDTH};
 
-static DpPressed step(Ground* ground, BoxSole sole, DpContactLaw law, DpSlide* slide, double dt)
+// one step of a sole that presses `heavier` times as hard
+static DpPressed stamp(Ground* ground, BoxSole sole, DpContactLaw law, DpSlide* slide, double dt,
+                       double heavier)
 {
     static const float met[NX * NY];  // level ground, as it was when the sole came
     float              goal[NX * NY];
     DpPressed          pressed;
-    const DpFootForce  foot = ground_load(load_of(&ground->soil[0]));
+    const DpFootForce  foot = ground_load(heavier * load_of(&ground->soil[0]));
     ground_sole(ground, sole);
     ground->imprint.slide = slide;
     ground->imprint.goal = goal;
@@ -36,6 +38,11 @@ static DpPressed step(Ground* ground, BoxSole sole, DpContactLaw law, DpSlide* s
     CHECK(dp_soil_compress(&ground->patch, &ground->imprint, &foot, law, dt, &pressed) == DP_OK);
     ground->imprint.slide = NULL;
     return pressed;
+}
+
+static DpPressed step(Ground* ground, BoxSole sole, DpContactLaw law, DpSlide* slide, double dt)
+{
+    return stamp(ground, sole, law, slide, dt, 1.0);
 }
 
 static void add(DpPressed* sum, DpPressed one)
@@ -92,6 +99,66 @@ TEST(nothing_is_cut_ahead_of_time)
         CHECK(cut <= 1.02 * k * by * DEPTH * WIDTH);
     }
     CHECK(cut > 0.8 * 64.0 * by * DEPTH * WIDTH);
+    ground_free(&g);
+}
+
+// what was slid over where nothing was in the way is no debt: who stamps afterwards presses
+TEST(trenches_leave_nothing_to_be_cut_later)
+{
+    Ground       g = ground_make(NX, NY, 0.01, sand());
+    const double tau = (double)g.soil[0].settle_time, by = 0.01 / 4.0, pitch = 0.1;
+    BoxSole      sole = SOLE;
+    DpSlide      slide = {.at = {by, 0.0}};
+    sole.pitch = pitch;  // all of its underside is lower than what was there before
+    for (int j = 0; j < NY; ++j)
+        for (int i = 0; i < NX / 2; ++i) g.compression[j * NX + i] = 0.08f;
+    for (int k = 0; k < 120; ++k) {
+        sole.x += by;
+        step(&g, sole, DP_CONTACT_SOLE, &slide, 0.02 * tau);
+    }
+    sole.x += by;  // half of it is beyond the trench
+    const DpPressed p = stamp(&g, sole, DP_CONTACT_SOLE, &slide, 0.02 * tau, 3.0);
+    CHECK(p.cut_firm > 0.0);
+    // no more than of one cell's way, by the underside and at the front; the trench would be ten times that
+    CHECK(p.cut_firm <= 2.0 * pitch * (0.01 + by) * LENGTH * WIDTH);
+    ground_free(&g);
+}
+
+// soil that yields late under the middle of a flat sole, which slides by cells, is pressed and not cut
+TEST(the_middle_of_a_fast_sole_is_pressed)
+{
+    Ground       g = ground_make(NX, NY, 0.01, sand());
+    const double tau = (double)g.soil[0].settle_time;
+    BoxSole      sole = SOLE;
+    DpSlide      slide = {.at = {0.02, 0.0}};
+    const int    middle = NY / 2 * NX + (int)((sole.x - g.patch.x0) / 0.01);
+    g.soil[1].settle_time *= 10.0f;
+    for (int k = -3; k < 4; ++k) g.kind[middle + k] = 1;
+    step(&g, sole, DP_CONTACT_SOLE, NULL, 0.5 * tau);
+    const double before = (double)g.compression[middle];
+    sole.x += 0.02;
+    const DpPressed p = step(&g, sole, DP_CONTACT_SOLE, &slide, 0.02 * tau);
+    CHECK(p.cut_firm > 0.0);
+    CHECK_NEAR((double)g.compression[middle] - before, 0.002 * DEPTH, 0.0005 * DEPTH);
+    ground_free(&g);
+}
+
+// what only hovers over loose soil has not come over it: it is swept where the sole comes down to it
+TEST(a_raised_front_sweeps_where_it_touches)
+{
+    Ground       g = ground_make(NX, NY, 0.01, sand());
+    const double tau = (double)g.soil[0].settle_time;
+    BoxSole      sole = SOLE;
+    DpSlide      slide = {.at = {0.01, 0.0}};
+    double       loose = 0.0;
+    sole.pitch = 0.8;
+    for (int k = 0; k < NX * NY; ++k) g.compression[k] = 0.1f, g.heap[k] = 0.09f;
+    step(&g, sole, DP_CONTACT_SOLE, NULL, 2.0 * tau);
+    for (int k = 0; k < 10; ++k) {
+        sole.x += 0.01;
+        loose += step(&g, sole, DP_CONTACT_SOLE, &slide, 0.02 * tau).cut_loose;
+    }
+    CHECK_CLOSE(loose, 0.09 * WIDTH * 0.1, 0.05);
     ground_free(&g);
 }
 
@@ -162,6 +229,24 @@ TEST(heaps_ahead_are_taken_along)
     ground_free(&g);
 }
 
+// what shears along with it is pressed, firm or loose
+TEST(what_is_held_does_not_flow)
+{
+    Ground g = ground_make(NX, NY, 0.01, sand());
+    for (int k = 0; k < NX * NY; ++k) g.heap[k] = 0.04f;
+    DpSlide slide = {.at = {0.005, 0.0}, .held = 1.0};
+    BoxSole sole = SOLE;
+    for (int k = 0; k < 8; ++k) {
+        const DpPressed p = step(&g, sole, DP_CONTACT_SOLE, &slide, 0.05);
+        CHECK(p.cut_firm <= 0.0 && p.cut_loose <= 0.0 && p.loose > 0.0);
+        sole.x += 0.005;
+    }
+    slide.held = 0.0;
+    const DpPressed p = step(&g, sole, DP_CONTACT_SOLE, &slide, 0.05);
+    CHECK(p.cut_firm > 0.0 && p.cut_loose > 0.0);
+    ground_free(&g);
+}
+
 // two that go to either side leave mirrored ground, to the bit
 TEST(mirrored_to_the_bit)
 {
@@ -190,10 +275,14 @@ int main(void)
 {
     RUN(all_that_it_slides_over_is_cut_and_little_of_it_pressed);
     RUN(nothing_is_cut_ahead_of_time);
+    RUN(trenches_leave_nothing_to_be_cut_later);
+    RUN(the_middle_of_a_fast_sole_is_pressed);
+    RUN(a_raised_front_sweeps_where_it_touches);
     RUN(cells_and_headings_do_not_matter);
     RUN(who_stands_cuts_nothing);
     RUN(what_only_comes_down_presses);
     RUN(heaps_ahead_are_taken_along);
+    RUN(what_is_held_does_not_flow);
     RUN(mirrored_to_the_bit);
     return check_done();
 }

@@ -61,8 +61,29 @@ TEST(a_trail_of_before_had_come_back)
 {
     Ground ground = springy(0.2);
     ground.compression[10] = 0.08f;
+    ground.patch.soils = ground.soil;
+    dp_soil_spring_trodden(&ground.patch);
+    CHECK_CLOSE(ground.patch.spring[10], 0.02, 1e-6);
+    CHECK_NEAR(spring[11], 0.0f, 0.0);
     CHECK_CLOSE(press(&ground, 10, 0.09), 0.01, 1e-4);
     CHECK_CLOSE(press(&ground, 10, 0.11), 0.01, 1e-4);
+    ground_free(&ground);
+}
+
+// what a wall sheds has left the ground there: it was not pressed deeper than what lies there now and has come back
+TEST(what_fell_had_not_come_back)
+{
+    Ground ground = springy(0.2);
+    (void)press(&ground, 10, 0.1);
+    (void)dp_soil_rebound(&ground.patch, NULL);
+    CHECK_CLOSE(spring[10], 0.02, 1e-6);
+    dp_soil_spring_fell(&ground.patch, 10, 0.005);
+    CHECK_CLOSE(spring[10], 0.015, 1e-6);
+    dp_soil_spring_fell(&ground.patch, 10, 0.05);
+    CHECK_NEAR(spring[10], 0.0f, 0.0);
+    (void)press(&ground, 20, 0.1);  // one that a sole still stands on keeps how deep it was pressed
+    dp_soil_spring_fell(&ground.patch, 20, 0.05);
+    CHECK_CLOSE(spring[20], -0.1, 1e-6);
     ground_free(&ground);
 }
 
@@ -96,6 +117,7 @@ int main(void)
     RUN(a_share_of_the_deepest_comes_back_where_nobody_stands);
     RUN(what_came_back_is_pressed_again_for_nothing);
     RUN(a_trail_of_before_had_come_back);
+    RUN(what_fell_had_not_come_back);
     RUN(what_is_shallower_already_stays);
     RUN(the_share_differs_from_place_to_place);
     return check_done();

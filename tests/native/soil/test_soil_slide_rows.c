@@ -179,7 +179,7 @@ TEST(walls_fall_as_the_model_says)
 {
     const double most = 1.5e-3;
     unsigned     seed = 11;
-    int          fell = 0, stood = 0;
+    int          fell = 0, stood = 0, may_fall = 0, may_stand = 0;
     for (int turn = 0; turn < 60; ++turn) {
         lay(&seed);
         if (turn % 3 == 0)  // rows whose walls are about as steep as they may be
@@ -210,6 +210,8 @@ TEST(walls_fall_as_the_model_says)
             const Walls its = {base + k, steep + k, slack + k};
             const int   alone = dp_walls_decide(&its, &its_share, &its_give, firm + k, height + k,
                                                 ROW, 1, FILM, (float)most);
+            CHECK(dp_walls_fall(&its, firm + k, height + k, ROW, 1) == (its_share > 0.0f));
+            may_fall += its_share > 0.0f, may_stand += !(its_share > 0.0f);
             if (fabs(worst - (double)slack[k]) > 1e-6 && firm[k] < BARRIER)
                 CHECK(((alone & ROW_RESTLESS) != 0) == (worst > (double)slack[k]));
             close |= fabs(worst - (double)slack[k]) < 1e-6;
@@ -218,10 +220,11 @@ TEST(walls_fall_as_the_model_says)
             CHECK(((told & ROW_MOVES) != 0) == want_moves);
             CHECK(((told & ROW_RESTLESS) != 0) == want_restless);
         }
+        CHECK(dp_walls_fall(&walls, firm + at, height + at, ROW, WIDE) == want_moves);
         fell += want_restless, stood += !want_restless;
     }
     printf("  walls of %d rows had to fall, of %d not\n", fell, stood);
-    CHECK(fell > 10 && stood > 5);
+    CHECK(fell > 10 && stood > 5 && may_fall > 100 && may_stand > 100);
 }
 
 TEST(what_falls_lies_on_the_neighbours_heaps)
@@ -266,40 +269,11 @@ TEST(what_falls_lies_on_the_neighbours_heaps)
     for (int k = 0; k < CELLS; ++k) CHECK(firm[k] == (float)floor_at[k]);
 }
 
-TEST(rows_are_read_as_the_patch_has_them)
-{
-    const float   at[4] = {1.5f, NAN, 2.0f, 1.0f}, pressed[4] = {0.1f, 0.0f, 0.0f, 0.2f};
-    const float   loose[4] = {0.02f, 0.0f, 0.03f, 0.0f}, slope[4] = {0.5f, 0.5f, 0.5f, 1.0f};
-    const float   wall[4] = {2.0f, 2.0f, 2.0f, INFINITY};
-    const int32_t ring[4] = {DP_RING_FAR, DP_RING_FAR, 0, 3};
-    const Row     row = {firm, height, heap, fall, slack, sum};
-    const Walls   walls = {base, steep, share};
-    dp_slide_fill(&row, at, pressed, loose, slope, ring, 4, 0.01, 1.0, 0.002);
-    dp_walls_fill(&walls, at, wall, ring, 4, 0.01, 1.0, 0.002);
-    CHECK_NEAR(firm[0], 0.4, 1e-7);
-    CHECK_NEAR(height[0], 0.42, 1e-7);
-    CHECK(heap[0] == 0.02f && sum[0] == (double)0.02f);
-    CHECK_NEAR(fall[0], 0.005, 1e-9);
-    CHECK_NEAR(slack[0], 0.002 * 1.25 * 0.01, 1e-11);
-    CHECK_NEAR(slack[3], 0.002 * 2.0 * 0.01, 1e-11);
-    CHECK_NEAR(firm[3], -0.2, 1e-7);
-    for (int k = 1; k < 3; ++k) {  // no ground, and under a sole
-        CHECK(firm[k] == BARRIER && height[k] == BARRIER);
-        CHECK(heap[k] == 0.0f && fall[k] == 0.0f && slack[k] == 0.0f);
-        CHECK(base[k] == 0.0f && isinf(steep[k]));
-    }
-    CHECK_NEAR(base[0], 0.5, 1e-7);
-    CHECK_NEAR(steep[0], 0.02, 1e-9);
-    CHECK_NEAR(share[0], 0.002 * 5.0 * 0.01, 1e-10);
-    CHECK(isinf(steep[3]));
-}
-
 int main(void)
 {
     RUN(a_row_gives_what_the_model_says);
     RUN(what_is_given_is_taken);
     RUN(walls_fall_as_the_model_says);
     RUN(what_falls_lies_on_the_neighbours_heaps);
-    RUN(rows_are_read_as_the_patch_has_them);
     return check_done();
 }

@@ -1,6 +1,7 @@
 // tests of soil_slide_walls.c and of what soil_stabilize.c does with it: MODEL 6.8
 #include "check.h"
 #include "ground.h"
+#include "soil/soil_slide.h"
 
 #define DEGREE (DP_PI / 180.0)
 #define TENTH (0.1 * DEGREE)
@@ -107,11 +108,82 @@ TEST(mirrored_to_the_bit)
     ground_free(&one), ground_free(&other), ground_free(&turned);
 }
 
+#define ROW 24  // floats from one row to the next; its cells are 4 to 19 of three rows
+#define FIRST (ROW + 4)
+#define CELLS 16
+
+typedef struct Rows
+{
+    float firm[3 * ROW], height[3 * ROW], base[3 * ROW], steep[3 * ROW], slack[3 * ROW];
+} Rows;
+
+static int falls(Rows* rows)
+{
+    const Walls walls = {rows->base + FIRST, rows->steep + FIRST, rows->slack + FIRST};
+    return dp_walls_fall(&walls, rows->firm + FIRST, rows->height + FIRST, ROW, CELLS);
+}
+
+// level firm ground whose walls may be `steep` high
+static Rows level(float steep)
+{
+    Rows rows;
+    memset(&rows, 0, sizeof rows);
+    for (int k = 0; k < 3 * ROW; ++k) rows.steep[k] = steep, rows.slack[k] = 1e-4f;
+    return rows;
+}
+
+TEST(a_wall_falls_to_any_of_its_eight_neighbours)
+{
+    for (int i = 0; i < CELLS; ++i)
+        for (int q = 0; q < 9; ++q) {
+            if (q == 4) continue;
+            const int   low = FIRST + i + (q / 3 - 1) * ROW + q % 3 - 1;
+            const float far = q % 2 ? 1.0f : (float)sqrt(2.0);
+            Rows        rows = level(0.02f);
+            for (int k = 0; k < 3 * ROW; ++k) rows.firm[k] = k == FIRST + i ? 0.0f : -1.0f;
+            rows.base[low] = rows.height[low] =
+                -0.1f;  // ground lay so before anybody came: it stands
+            CHECK(!falls(&rows));
+            rows.base[low] = 0.0f;
+            CHECK(falls(&rows));
+            rows.height[low] = -0.0199f * far;
+            CHECK(!falls(&rows));
+            rows.height[low] = -0.0203f * far;
+            CHECK(falls(&rows));
+        }
+}
+
+TEST(a_row_of_which_nothing_may_fall_gives_nothing)
+{
+    float    share[CELLS], give[CELLS];
+    uint32_t state = 1;
+    int      fell = 0, stood = 0;
+    for (int k = 0; k < 4000; ++k) {
+        Rows rows = level(0.01f);
+        for (int c = 0; c < 3 * ROW; ++c)
+            for (int f = 0; f < 3; ++f) {
+                float* const fields[3] = {rows.firm, rows.height, rows.base};
+                state = state * 1664525u + 1013904223u;
+                fields[f][c] = (float)(state >> 8) * 0x1p-24f * 0.004f * (float)(k % 5);
+            }
+        const Walls walls = {rows.base + FIRST, rows.steep + FIRST, rows.slack + FIRST};
+        (void)dp_walls_decide(&walls, share, give, rows.firm + FIRST, rows.height + FIRST, ROW,
+                              CELLS, 1e-4f, 1.0f);
+        int gives = 0;
+        for (int c = 0; c < CELLS; ++c) gives |= give[c] > 0.0f;
+        CHECK(!gives == !falls(&rows));
+        fell += gives, stood += !gives;
+    }
+    CHECK(fell > 400 && stood > 400);
+}
+
 int main(void)
 {
     RUN(walls_fall_to_their_angle_and_volume_is_kept);
     RUN(walls_that_may_stand_do);
     RUN(ground_nobody_cut_and_walls_beside_a_sole_stand);
     RUN(mirrored_to_the_bit);
+    RUN(a_wall_falls_to_any_of_its_eight_neighbours);
+    RUN(a_row_of_which_nothing_may_fall_gives_nothing);
     return check_done();
 }

@@ -68,6 +68,17 @@ TEST(a_volume_is_laid_by_area)
     CHECK(dp_terrain_drop(terrain, 0.606, 0.703, 0.002, 1e-6, &cells, &laid) == DP_OK);
     CHECK_CLOSE(cell_of(terrain, DP_FIELD_HEAP, 60, 70), 1e-2, 1e-6);
     dp_terrain_destroy(terrain);
+    // wider than 64 cells: in the 64 in the middle
+    const double wide[2] = {0.4, 0.9}, lies_in[2] = {0.4, 64.0 * CELL};
+    for (int k = 0; k < 2; ++k) {
+        terrain = field();
+        CHECK(dp_terrain_drop(terrain, 0.5, 0.5, wide[k], 1e-4, &cells, &laid) == DP_OK);
+        CHECK_CLOSE(laid, 1e-4, 1e-5);
+        CHECK(cells.i1 - cells.i0 == (int)(lies_in[k] / CELL + 0.5));
+        CHECK_CLOSE(cell_of(terrain, DP_FIELD_HEAP, cells.i0, cells.j0),
+                    1e-4 / lies_in[k] / lies_in[k], 1e-5);
+        dp_terrain_destroy(terrain);
+    }
 }
 
 TEST(beside_the_ground_nothing_is_laid)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "check.h"
 #include "walker/walker.h"
 
 typedef struct Scene
@@ -57,6 +58,15 @@ static inline const DpGait* scene_gait(Scene* s, int times, int limbs, int point
                        .point_part = s->point_part,
                        .point_role = s->point_role};
     return &s->gait;
+}
+
+// what touches when (P, T), by the usual limits, and the resting clearance of each point (K)
+static inline void scene_touch(Scene* s, int times, int limbs, int points, uint8_t* on,
+                               double* clearance)
+{
+    const DpContactLimits limits = dp_contact_limits_default();
+    CHECK(dp_foot_contact(scene_gait(s, times, limbs, points), s->ground, &limits, on, clearance) ==
+          DP_OK);
 }
 
 static inline void scene_free(Scene* s)

@@ -42,10 +42,9 @@ static void check_walk(double hover, double ramp, double drift)
     Scene s = walking(hover, ramp);
     for (int k = 0; k < LIMBS * T; ++k)
         s.pose[7 * k + 2] += drift * (s.pose[7 * k] - s.com[3 * (T / 2)]);
-    uint8_t               on[LIMBS * T];
-    double                clearance[LIMBS];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[LIMBS * T];
+    double  clearance[LIMBS];
+    scene_touch(&s, T, LIMBS, 1, on, clearance);
     for (int p = 0; p < LIMBS; ++p) {
         CHECK_NEAR(clearance[p], hover, 2e-3);
         CHECK_CLOSE(share_touching(on + p * T), 0.6 * T, 0.12);
@@ -86,10 +85,9 @@ TEST(a_long_stay_is_one_stay)
         scene_put(&s, N, 0, t, 1.2 * (floor(at) + swing * swing * (3.0 - 2.0 * swing)), 0.1, high);
         scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     CHECK_NEAR(clearance[0], 0.0, 2e-3);
     scene_free(&s);
 }
@@ -159,10 +157,9 @@ TEST(nothing_touches_where_there_is_no_ground)
 {
     Scene s = walking(0.0, 0.0);
     for (int k = 0; k < LIMBS * T; ++k) s.ground[k] = NAN;
-    uint8_t               on[LIMBS * T];
-    double                clearance[LIMBS];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, T, LIMBS, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[LIMBS * T];
+    double  clearance[LIMBS];
+    scene_touch(&s, T, LIMBS, 1, on, clearance);
     for (int k = 0; k < LIMBS * T; ++k) CHECK(on[k] == 0);
     for (int p = 0; p < LIMBS; ++p) CHECK(isfinite(clearance[p]));
     scene_free(&s);
@@ -181,12 +178,11 @@ TEST(two_feet_on_a_box_both_carry)
         scene_put(&s, N, 1, t, 0.0, -0.1, 0.4 + 0.002 * sin((double)t));
     }
     // the ground's height is that below the box
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
+    uint8_t on[2 * N];
+    double  clearance[2];
     s.point_role[0] = DP_POINT_BALL;
     for (int t = N / 2; t < N; ++t) scene_put(&s, N, 0, t, 0.0, 0.1, 0.0);  // one has stepped down
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    scene_touch(&s, N, 2, 1, on, clearance);
     for (int t = 10; t < N / 2 - 20; ++t) CHECK(on[t] && on[N + t]);
     scene_free(&s);
 }
@@ -211,10 +207,9 @@ TEST(the_ground_marks_the_edges)
                   high + 4.0 * up * up);
         scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);  // the other stands
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     int first = 0, last = N - 1;
     while (!on[first]) ++first;
     while (!on[last]) --last;
@@ -242,10 +237,9 @@ TEST(a_foot_that_is_drawn_ahead_leaves_as_it_is_sped_up)
         scene_put(&s, N, 0, t, x, 0.1, z);
         scene_put(&s, N, 1, t, 0.0, -0.1, 0.0);
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     int last = N - 1;
     while (!on[last]) --last;
     CHECK_NEAR((double)last / (2.0 * RATE), 1.41, 0.015);
@@ -267,10 +261,9 @@ TEST(short_ticks_and_gaps_close)
         s.ground[t] = t == 60 || t == 61 ? -0.05 : 0.0;
         s.ground[N + t] = t > 20 && t < 23 ? 0.06 : t < 10 ? 0.06 : 0.0;
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     for (int t = 0; t < N; ++t) CHECK(on[t] == 1);
     for (int t = 12; t < N; ++t) CHECK(on[N + t] == 0);
     scene_free(&s);

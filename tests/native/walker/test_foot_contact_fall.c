@@ -24,10 +24,9 @@ TEST(flight_carries_nobody)
         scene_com(&s, t, 0.0, 0.0, 1.0 + z);
         scene_put(&s, N, 0, t, 0.0, 0.0, z);
     }
-    uint8_t               on[N];
-    double                clearance[1];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[N];
+    double  clearance[1];
+    scene_touch(&s, N, 1, 1, on, clearance);
     for (int t = 0; t < N; ++t) {
         const double now = (double)t / RATE - 0.7;
         if (now < -0.03 || now > 0.63) CHECK(on[t] == 1);
@@ -50,10 +49,9 @@ TEST(falling_ball_touches_in_time)
         scene_com(&s, t, 0.0, 0.0, z);
         scene_put(&s, N, 0, t, 0.0, 0.0, z);
     }
-    uint8_t               on[N];
-    double                clearance[1];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[N];
+    double  clearance[1];
+    scene_touch(&s, N, 1, 1, on, clearance);
     for (int t = 0; t < N; ++t)
         if (fabs((double)t / RATE - fall) > 1.5 / RATE) CHECK(on[t] == ((double)t / RATE > fall));
     scene_free(&s);
@@ -78,10 +76,9 @@ TEST(a_foot_that_lands_fast_is_let_go_only_once_it_was_slower)
         scene_put(&s, N, 0, t, x, 0.0, z);
         x += speed / RATE;
     }
-    uint8_t               on[N];
-    double                clearance[1];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[N];
+    double  clearance[1];
+    scene_touch(&s, N, 1, 1, on, clearance);
     for (int t = 0; t < N; ++t) {
         const double now = (double)t / RATE;
         if (now > 0.55 && now < 1.15) CHECK(on[t]);
@@ -104,10 +101,9 @@ TEST(somebody_carries_what_does_not_fall)
         scene_put(&s, N, 0, t, 0.0, 0.1, up);
         scene_put(&s, N, 1, t, 1.5 * sin(6.0 * (double)t / RATE), -0.1, t < N / 2 ? 0.25 : 0.55);
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     CHECK_NEAR(clearance[0], 0.0, 1e-3);
     for (int t = 0; t < N; ++t) {
         if (abs(t - N / 2) < 6) continue;
@@ -131,10 +127,9 @@ TEST(who_glides_stands_on_both_feet)
         scene_put(&s, N, 0, t, along, 0.1, 0.1);
         scene_put(&s, N, 1, t, along + 0.001 * sin(0.3 * (double)t), -0.1, 0.1);
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     CHECK_NEAR(clearance[0], 0.1, 1e-3);  // no point ever rests: the lowest it goes
     CHECK_NEAR(clearance[1], 0.1, 1e-3);
     for (int t = 0; t < N; ++t) CHECK(on[t] == 1 && on[N + t] == 1);
@@ -156,10 +151,9 @@ TEST(who_hangs_presses_nothing)
         scene_put(&s, N, 0, t, 0.0, 0.1, up);
         scene_put(&s, N, 1, t, 0.0, -0.1, up);
     }
-    uint8_t               on[2 * N];
-    double                clearance[2];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 2, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[2 * N];
+    double  clearance[2];
+    scene_touch(&s, N, 2, 1, on, clearance);
     CHECK_NEAR(clearance[0], 0.0, 1e-3);
     for (int t = 0; t < N; ++t) {
         if (t < N / 4) CHECK(on[t] == 1 && on[N + t] == 1);
@@ -182,10 +176,9 @@ TEST(a_sudden_stop_out_of_a_flight_is_timed)
         scene_com(&s, t, 0.0, 0.0, 6.0 - 0.5 * DP_GRAVITY * fmin(now * now, 1.0));
         scene_put(&s, N, 0, t, 0.0, 0.0, 0.2 * down + near * (0.8 - 4.0 * near));
     }
-    uint8_t               on[N];
-    double                clearance[1];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[N];
+    double  clearance[1];
+    scene_touch(&s, N, 1, 1, on, clearance);
     int first = 0;
     while (first < N && !on[first]) ++first;
     CHECK_NEAR((double)first / (2.0 * RATE), 1.0, 0.0135);
@@ -206,10 +199,9 @@ TEST(toes_that_are_lifted_in_a_fall_touch_where_they_land)
         scene_com(&s, t, 0.0, 0.0, 6.0 - 0.5 * DP_GRAVITY * fmin(now * now, 1.0));
         scene_put(&s, N, 0, t, 0.0, 0.0, 0.7 * near + 1.6 * (down - near));
     }
-    uint8_t               on[N];
-    double                clearance[1];
-    const DpContactLimits limits = dp_contact_limits_default();
-    CHECK(dp_foot_contact(scene_gait(&s, N, 1, 1), s.ground, &limits, on, clearance) == DP_OK);
+    uint8_t on[N];
+    double  clearance[1];
+    scene_touch(&s, N, 1, 1, on, clearance);
     int first = 0;
     while (first < N && !on[first]) ++first;
     CHECK_NEAR((double)first / (2.0 * RATE), 1.0, 0.02);
