@@ -123,7 +123,7 @@ def test_passages_depend_on_their_number_alone():
     every = choice.passages(0, 60)
     assert every[20:35] == choice.passages(20, 15)
     load = np.zeros(choice.blocked.shape)
-    alone, among = choice.ways(load, every[7:8])[0], choice.ways(load, every)[7]
+    alone, among = choice.ways(load, every[7:8])[0].points, choice.ways(load, every)[7].points
     assert np.array_equal(alone, among)
     trips = [(each.start, each.goal) for each in choice.passages(0, 2000)]
     assert all(start != goal for start, goal in trips)

@@ -23,6 +23,8 @@ WALL = [{"box": [11, -1, 13, 21]}]
         ({"places": [{"name": "a", "at": [1, 1]}, {"name": "b", "at": [5, 5], "rate": 1e9}]}, "rate of 'b' cannot be"),
         ({"places": [{"name": "a", "at": [1, 1]}, {"name": "b", "at": [5, 5], "rate": -1}]}, "rate of 'b' cannot be"),
         ({"places": [{"name": "a", "at": [1, 1]}, {"name": "a", "at": [5, 5]}]}, "Two places are called 'a'"),
+        ({"places": [{"name": "a", "at": [1, 1]}, {"name": "b", "at": [1, 1]}]}, "'a' and 'b' have no ground between"),
+        ({"places": [{"name": "a", "at": [1, 1], "radius": 4}, {"name": "b", "at": [4, 3]}]}, "no ground between them"),
         ({"places": [{"name": "a", "at": [1, 1]}, {"name": "b", "at": [50, 5]}]}, "'b' lies outside the ground"),
         ({"places": [{"name": "a"}, {"name": "b", "at": [50, 5]}]}, "A place does not say its at"),
         ({"places": [{"name": "a", "at": [1, 1, 2]}, {"name": "b", "at": [5, 5]}]}, "place 'a' cannot be"),

@@ -71,7 +71,7 @@ def walk(obj, frames=48, period=24, speed=1.3, rate=24, size=1.0):
 
 
 def bvh(path, **options):
-    """Import a BVH as an armature that stands upright in metres; returns the object."""
+    """Import a BVH as an armature that stands upright in metres, with options of the importer; returns the object."""
     import importlib
 
     for place in ("io_anim_bvh.import_bvh", "bl_ext.core.io_anim_bvh.import_bvh"):
@@ -83,9 +83,8 @@ def bvh(path, **options):
         module.open = lambda f, mode="r", *a, **k: builtins.open(f, mode.replace("U", "") or "r", *a, **k)  # noqa: SIM115
     addon("io_anim_bvh", "import_anim", "bvh")
     before = set(bpy.data.objects)
-    bpy.ops.import_anim.bvh(
-        filepath=str(path), use_fps_scale=False, update_scene_fps=True, update_scene_duration=True, **options
-    )
+    usual = {"use_fps_scale": False, "update_scene_fps": True, "update_scene_duration": True}
+    bpy.ops.import_anim.bvh(filepath=str(path), **{**usual, **options})
     obj = next(iter(set(bpy.data.objects) - before))
     meshes.activate(obj)
     return obj

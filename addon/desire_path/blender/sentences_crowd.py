@@ -28,6 +28,9 @@ GERMAN = {
     "The place '{}' lies outside the ground: move it, or make that larger.": (
         "Der Ort '{}' liegt außerhalb des Bodens: ihn verschieben, oder den Boden größer machen."
     ),
+    "The places '{}' and '{}' have no ground between them: move one of them, or make its radius smaller.": (
+        "Zwischen den Orten '{}' und '{}' liegt kein Boden: einen davon verschieben, oder seinen Radius verkleinern."
+    ),
     # ---- crowd/covers.py
     "A crowd cannot walk on {}: name one of {}.": "Eine Menge kann nicht auf {} gehen: eines nennen von {}.",
     "A crowd knows no ground called {}: name one of {}.": (
@@ -64,7 +67,17 @@ GERMAN = {
     'The scene does not say where feet press: add {"press": {"box": [x0, y0, x1, y1]}}.': (
         'Die Szene sagt nicht, wo Füße drücken: {{"press": {{"box": [x0, y0, x1, y1]}}}} hinzufügen.'
     ),
+    # ---- crowd/prints.py
+    "Feet sink {} cm into '{}', and 3 to 50 cm are waded: choose another ground.": (
+        "Füße sinken {} cm tief in '{}', gewatet wird durch 3 bis 50 cm: einen anderen Boden wählen."
+    ),
     # ---- crowd/scene.py
+    'Ground that prints tell of has a soil: write {"kind": "prints", "soil": "deep-snow"}.': (
+        'Boden, von dem Abdrücke erzählen, hat ein Erdreich: {{"kind": "prints", "soil": "deep-snow"}} schreiben.'
+    ),
+    "Shares of walkers that visit places add up to {}: give at most 1 in all.": (
+        "Die Anteile derer, die Orte besuchen, ergeben zusammen {}: höchstens 1 im Ganzen angeben."
+    ),
     "A place cannot be called {}: give it a name without commas.": (
         "Ein Ort kann nicht {} heißen: ihm einen Namen ohne Kommas geben."
     ),
@@ -94,6 +107,11 @@ GERMAN = {
         "Zwei Orte heißen '{}': jedem einen eigenen Namen geben."
     ),
     "{} is no scene in JSON{}: mend it.": "{} ist keine Szene in JSON{}: sie richten.",
+    # ---- crowd/spans.py
+    "Nobody comes in any span: give one of them passages a day.": (
+        "In keinem Zeitabschnitt kommt jemand: einem davon Gänge am Tag geben."
+    ),
+    "There are {} spans: give up to {}.": "Es gibt {} Zeitabschnitte: bis zu {} angeben.",
     # ---- crowd/trajectories.py
     "A trajectory leaves the ground at ({}, {}): make that larger, by size and origin.": (
         "Eine Bahn verlässt den Boden bei ({}, {}): ihn größer machen, durch size und origin."

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import DesirePathError
+from ..placement.effort import PER_CM, SNOW
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -25,8 +26,6 @@ DAYS = 365.0  # of a year
 PACE = 1.33  # of walkers, for what slopes cost [m/s]
 MAX_LOAD = 1e12  # passes
 MIN_LOAD = 1e-9  # passes; less is none
-EFFORT = 1.3  # eta of snow that bears, of SOFT22's walkers
-SINKING = 0.08  # by which it grows for each centimetre that feet sink
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ def snow(depth: float) -> Cover:
     """Snow in which feet sink so deep [m] until it is trodden: k = eta / 1.3 - 1, eta = 1.3 + 0.08 z. MODEL 12.6"""
     if not 0.03 < depth <= 0.5:
         raise DesirePathError(f"Snow of {depth:g} m cannot be waded: give a depth from 0.03 to 0.5.")
-    return Cover(SINKING * 100.0 * depth / EFFORT, 1.0, 2.0, 2.13, renewal=0.05)
+    return Cover(100.0 * PER_CM * depth / SNOW, 1.0, 2.0, 2.13, renewal=0.05)
 
 
 COVERS: Mapping[str, Cover] = MappingProxyType(  # by name, to be read: ground of your own is a Cover
@@ -114,7 +113,7 @@ def as_cover(given: Any) -> Cover:
 
 
 def steep(heights: np.ndarray, cell: float) -> np.ndarray:
-    """What slopes cost, a factor >= 1 (ny, nx): the mean of up and down, whose way is not known. MODEL 12.6"""
+    """What slopes cost, a factor >= 1 (ny, nx): the mean of up and down, as nobody knows who goes which. MODEL 12.6"""
     along, across = (np.gradient(heights, cell, axis=k) if heights.shape[k] > 1 else 0.0 * heights for k in (0, 1))
     rise = np.hypot(along, across)
     level = 1.5 + 1.5 * PACE**2

@@ -5,7 +5,7 @@
 
 The folder holds, when it is done:
 
-    paths.csv                  passage,kind,from,to,x,y: the way of everybody, a point every two cells [m]
+    paths.csv                  passage,kind,from,to,x,y: the path of everybody, a point every two cells [m]
     cover_final.exr            cover (1 = untouched), load (passes), rest (height)
     frames/cover_000300.exr    the same after 300 passages, where the scene asks for a film
     crowd.json                 numbers: lengths, detours, bare area
@@ -25,6 +25,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .. import memory
 from ..bake import state as states
 from ..core import _native
 from ..errors import DesirePathError
@@ -34,6 +35,7 @@ from ..version import VERSION
 from .choice import Choice, Passage
 from .covers import BODY
 from .scene import Scene, schedule
+from .stays import Walked
 from .tread import tread
 
 PATHS, STATE, REPORT, FINAL, LOCK = "paths.csv", "crowd.state", "crowd.json", "cover_final.exr", "crowd.lock"
@@ -41,6 +43,7 @@ FRAME = re.compile(r"cover_\d{6,}\.exr")
 HEADER = b"passage,kind,from,to,x,y\n"
 EVERY = 2.0  # from state to state, at least [s]
 THIN = 4  # steps of half a cell from point to point of paths.csv
+CELL_BYTES, PLACE_BYTES, PULL_BYTES = 70.0, 5.0, 65.0  # of memory, for each cell
 HALF, BARE = 0.5, 0.1  # cover below which ground counts as worn, and as bare
 
 
@@ -52,9 +55,15 @@ class Ways(Protocol):
 
     def passages(self, first: int, count: int) -> list[Passage]: ...
 
-    def ways(self, load: np.ndarray, passages: list[Passage]) -> list[np.ndarray]: ...
+    def ways(self, load: np.ndarray, passages: list[Passage]) -> list[Walked]: ...
 
     def direct(self, passage: Passage) -> float: ...
+
+
+def _bytes(scene: Scene) -> float:
+    """Memory that its fields take, about [bytes]."""
+    each = CELL_BYTES + PLACE_BYTES * len(scene.places) + (PULL_BYTES if scene.ground.pull else 0.0)
+    return each * scene.shape[0] * scene.shape[1]
 
 
 class Crowd:
@@ -65,11 +74,12 @@ class Crowd:
 
     def __init__(self, scene: Scene, folder: str | os.PathLike[str], *, ways: Ways | None = None) -> None:
         self.scene, self.folder = scene, os.path.abspath(os.fspath(folder))
+        memory.check_rest(_bytes(scene))
         self.ways: Ways = ways or Choice(scene)
         self.load = np.zeros(scene.shape)  # of each cell [passes]
         self.done = 0  # passages
         places = len(self.ways.names)
-        self.trips = np.zeros((3, places, places))  # number, length walked, length of the shortest way [m]
+        self.trips = np.zeros((3, places, places))  # number, length walked, length of the shortest path [m]
         self._written = 0  # bytes of paths.csv
         self._about = {"version": VERSION, "scene": self._name()}
 
@@ -120,19 +130,22 @@ class Crowd:
         passages = self.ways.passages(self.done, count)
         ways = self.ways.ways(self.load, passages)
         weights = [scene.walkers[each.kind].mass / BODY for each in passages]
-        self.load = scene.ground.rested(
-            self.load + tread(ways, weights, self.load.shape, scene.cell), count / scene.per_day
-        )
+        trodden = self.load + tread([walked.points for walked in ways], weights, self.load.shape, scene.cell)
+        self.load = scene.ground.rested(trodden, self._grown(self.done + count) - self._grown(self.done))
         for each, walked in zip(passages, ways):
             at = (each.start, each.goal)
             self.trips[0][at] += 1.0
-            self.trips[1][at] += float(np.hypot(*np.diff(walked, axis=0).T).sum())
+            self.trips[1][at] += walked.length
             self.trips[2][at] += self.ways.direct(each)
         self.done += count
         return b"".join(self._lines(each, walked) for each, walked in zip(passages, ways))
 
-    def _lines(self, passage: Passage, walked: np.ndarray) -> bytes:
-        thin = np.r_[walked[:-1:THIN], walked[-1:]] + self.scene.origin
+    def _grown(self, passages: int) -> float:
+        """Days of growth until so many passages have gone; those after the last one are days of rest."""
+        return self.scene.calendar.until(passages, passages < self.scene.passages)[1]
+
+    def _lines(self, passage: Passage, walked: Walked) -> bytes:
+        thin = walked.thin(THIN) + self.scene.origin
         names = self.ways.names
         begin = f"{passage.number},{passage.kind},{names[passage.start]},{names[passage.goal]}"
         return "".join(f"{begin},{x:.2f},{y:.2f}\n" for x, y in thin.tolist()).encode()
@@ -216,7 +229,7 @@ class Crowd:
         return {
             "version": VERSION,
             "passages": self.done,
-            "days": self.done / self.scene.per_day,
+            "days": self.scene.calendar.until(self.done, idle=False)[0],
             "detour": float(walked.sum() / max(direct.sum(), 1e-9)),
             "area_below_half_cover": float(np.sum((cover < HALF) & ~self.ways.blocked) * area),
             "bare_area": float(np.sum((cover < BARE) & ~self.ways.blocked) * area),

@@ -17,7 +17,6 @@ import os
 import re
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -34,16 +33,16 @@ from ..ground.plants import Planting
 from ..ground.sim import Ground, Simulation
 from ..ground.soil import as_soil
 from ..loads import walker
-from ..motion.gait import Gait
-from ..study.trampling import cover, walk
+from ..study.trampling import cover
 from ..version import VERSION
 from .crowd import PATHS
+from .prints import gait_of
 from .scene import Press, Scene
 
 FINAL, REPORT, STATE, LOCK = "trodden_final.exr", "feet.json", "feet.state", "feet.lock"
 BEFORE = 2.0  # walkers come so far from outside the rectangle [m]
 STRIDE = 1.4  # over which they begin here or there [m]
-SHORTEST = 0.5  # of a way [m]
+SHORTEST = 0.5  # of a path [m]
 EVERY = 20.0  # from state to state, at least [s]
 DAY = 86400.0  # [s]
 
@@ -55,7 +54,7 @@ class Feet:
         if scene.press is None:
             raise DesirePathError('The scene does not say where feet press: add {"press": {"box": [x0, y0, x1, y1]}}.')
         self.scene, self.folder, self.where = scene, os.path.abspath(os.fspath(folder)), scene.press
-        self._gaits = [_gait(kind.walk, kind.mass) for kind in scene.walkers]
+        self._gaits = [gait_of(kind.walk, kind.mass) for kind in scene.walkers]
         ground = Ground.read(scene.heights, None) if scene.heights else Ground.flat()
         self.sim = Simulation(
             ground,
@@ -86,13 +85,13 @@ class Feet:
     def _press(self, progress: Callable[[float], object] | None) -> dict[str, Any]:
         about = {"version": VERSION, "scene": self._name()}
         self._resume(about)
-        kept, rested = time.monotonic(), self._last
+        kept, rested, calendar = time.monotonic(), self._last, self.scene.calendar
         for number, kind, points in self._passages():
             if number <= self._done:
                 continue
             runs = list(self._through(number, points))
             if runs and self.sim.plantings and rested >= 0:
-                self.sim.rest_plants((number - rested) / self.scene.per_day * DAY)
+                self.sim.rest_plants((calendar.until(number)[1] - calendar.until(rested)[1]) * DAY)
             for run in runs:
                 self._walk(kind, run)
             if runs:
@@ -141,7 +140,7 @@ class Feet:
                 yield now, kind, np.array(points)
 
     def _through(self, number: int, points: np.ndarray) -> Iterator[np.ndarray]:
-        """The parts of a way that come through the rectangle, each begun some part of a stride before."""
+        """The parts of a path that come through the rectangle, each begun some part of a stride before."""
         x0, y0, x1, y1 = self.where.box
         wide = BEFORE + STRIDE * float(np.random.default_rng([self.scene.seed, number, 3]).random())
         near = ((points >= (x0 - wide, y0 - wide)) & (points <= (x1 + wide, y1 + wide))).all(axis=1)
@@ -211,13 +210,6 @@ class Feet:
         }
         atomic_file.write_json(os.path.join(self.folder, REPORT), report, "The numbers of the feet")
         return report
-
-
-def _gait(name: str, mass: float) -> Gait:
-    if not name:
-        return walk(mass)
-    gait = Gait.load(name)
-    return replace(gait, mass=np.full(len(gait.mass), mass)).check()
 
 
 def _planting(text: str, seed: int, where: Press) -> Planting:

@@ -16,47 +16,32 @@ import functools
 import json
 import math
 import os
-from dataclasses import MISSING, dataclass, field, fields, replace
+from collections.abc import Sequence
+from dataclasses import MISSING, asdict, dataclass, field, fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
 
 from ..errors import DesirePathError
 from ..files import record
+from ..ground import maps
 from ..ground.options import SimulationOptions
 from ..ground.sim import Ground, Simulation
 from .covers import Cover, as_cover, steep
+from .numbers import number, pair, whole_number
+from .prints import prints
 from .shapes import mask
+from .spans import Calendar, Span
 
 MAX_TEXT = 1 << 24  # bytes of a scene
 MAX_SIDE = 20_000  # cells
 MAX_CELL = 0.5  # how wide cells may be: wider ones merge ways that walkers keep apart [m]
 MAX_PASSAGES = 10_000_000
 MAX_PLACES = 1000
-MAX_PRESSED = 1 << 27  # cells
+MAX_PRESSED = maps.MAX_CELLS  # cells
+PRINTS = "prints"  # ground that the core tells of
 MAX_SLOPE = 1.0  # steeper ground is an obstacle [-]
 Record = TypeVar("Record")
-
-
-def number(value: Any, what: str, low: float, high: float) -> float:
-    """A number in its range; else a sentence that begins with `what`."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: give a number from {low:g} to {high:g}.")
-    return float(value)
-
-
-def whole_number(value: Any, what: str, low: int, high: int) -> int:
-    """A whole number in its range; else a sentence that begins with `what`."""
-    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: give a whole number from {low} to {high}.")
-    return value
-
-
-def _pair(value: Any, what: str) -> tuple[float, float]:
-    if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise DesirePathError(f"{what} cannot be {str(value)[:40]}: write two numbers, as [10, 20].")
-    x, y = (number(each, what, -1e6, 1e6) for each in value)
-    return x, y
 
 
 @dataclass(frozen=True)
@@ -67,13 +52,17 @@ class Place:
     at: tuple[float, float]  # [m]
     rate: float = 1.0  # how many walkers come here, against other places          [-] 0..1e6
     radius: float = 1.25  # who is as near is there, and starts as near              [m] 0.1..100
+    linger: float = 0.0  # how long walkers stay here, on the average               [s] 0..86400
+    visit: float = 0.0  # share of the others that come by here on their way        [-] 0..1
 
     def check(self) -> Place:
         if not isinstance(self.name, str) or not 0 < len(self.name) <= 60 or set(self.name) & set(',"\r\n'):
             raise DesirePathError(f"A place cannot be called {str(self.name)[:40]!r}: give it a name without commas.")
-        _pair(self.at, f"The place '{self.name}'")
+        pair(self.at, f"The place '{self.name}'")
         number(self.rate, f"The rate of '{self.name}'", 0.0, 1e6)
         number(self.radius, f"The radius of '{self.name}'", 0.1, 100.0)
+        number(self.linger, f"The time for which walkers linger at '{self.name}'", 0.0, 86400.0)
+        number(self.visit, f"The share of walkers that visit '{self.name}'", 0.0, 1.0)
         return self
 
 
@@ -136,6 +125,7 @@ class Scene:
     walkers: tuple[Kind, ...] = (Kind(),)
     passages: int = 10_000  # from place to place, all together
     per_day: float = 30.0  # of them [1/day]
+    spans: tuple[Span, ...] = ()  # in the place of per_day: days, weeks, seasons, again and again; see spans
     renewals: int = 100  # how often ways are chosen anew
     rest_days: float = 0.0  # without walkers, after all passages
     film_every: int = 0  # passages from picture to picture; 0 = none but the last
@@ -144,8 +134,8 @@ class Scene:
 
     def check(self) -> Scene:
         """Itself, if a crowd can walk there; else a sentence."""
-        wide, high = _pair(self.size, "The size of the ground")
-        _pair(self.origin, "The origin of the ground")
+        wide, high = pair(self.size, "The size of the ground")
+        pair(self.origin, "The origin of the ground")
         cell = number(self.cell, "The side of a cell", 0.05, MAX_CELL)
         if not (cell <= wide <= MAX_SIDE * cell and cell <= high <= MAX_SIDE * cell):
             raise DesirePathError(
@@ -154,6 +144,7 @@ class Scene:
             )
         whole_number(self.passages, "The number of passages", 1, MAX_PASSAGES)
         number(self.per_day, "The number of passages a day", 1e-3, 1e6)
+        self.calendar.until(0)
         whole_number(self.renewals, "The number of renewals", 1, 100_000)
         number(self.rest_days, "The number of days at rest", 0.0, 1e6)
         whole_number(self.film_every, "The number of passages from picture to picture", 0, MAX_PASSAGES)
@@ -173,6 +164,14 @@ class Scene:
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise DesirePathError(f"Two places are called '{twice}': give each a name of its own.")
+        visits = sum(place.visit for place in self.places)
+        if visits > 1.0:
+            raise DesirePathError(f"Shares of walkers that visit places add up to {visits:g}: give at most 1 in all.")
+
+    @functools.cached_property
+    def calendar(self) -> Calendar:
+        """When each passage goes."""
+        return Calendar(self.spans or (Span(1.0, self.per_day),))
 
     # ---- the ground in cells ---------------------------------------------------------------------------
 
@@ -264,7 +263,8 @@ def of(given: Any, folder: str = "") -> Scene:
         )
     if given.get("press") is not None:
         words["press"] = _record(Press, given["press"], "The press of a scene")
-    words["ground"] = as_cover(given.get("ground", "meadow"))
+    words["spans"] = tuple(_record(Span, each, "A span") for each in _listed(given.get("spans", []), "Spans"))
+    words["ground"] = _ground(given.get("ground", "meadow"), words["walkers"], folder)
     for name, what in (("obstacles", "Obstacles"), ("paved", "Paved ways")):
         words[name] = tuple(_listed(given.get(name, []), what))
     if not isinstance(words["heights"], str):
@@ -272,6 +272,20 @@ def of(given: Any, folder: str = "") -> Scene:
     if words["heights"]:
         words["heights"] = os.path.join(folder, words["heights"])
     return Scene(**words).check()
+
+
+def _ground(given: Any, walkers: Sequence[Kind], folder: str) -> Cover:
+    """A Cover by its name or its numbers, or by the prints of those walkers of which there are most."""
+    if not isinstance(given, dict) or given.get("kind") != PRINTS:
+        return as_cover(given)
+    numbers = {name: value for name, value in given.items() if name != "kind"}
+    soil = numbers.pop("soil", None)
+    if not isinstance(soil, str) or not soil:
+        raise DesirePathError('Ground that prints tell of has a soil: write {"kind": "prints", "soil": "deep-snow"}.')
+    if soil.endswith(".json"):
+        soil = os.path.join(folder, soil)
+    most = max((kind.check() for kind in walkers), key=lambda kind: kind.share, default=Kind())
+    return as_cover({**asdict(prints(soil, most.walk, most.mass)), **numbers})
 
 
 def read(path: str | os.PathLike[str]) -> Scene:
@@ -291,4 +305,5 @@ def schedule(scene: Scene, done: int) -> int:
     even = max(math.ceil(scene.passages / scene.renewals), 1)
     if scene.ground.renewal:
         even = min(max(int(scene.ground.renewal * done), 1), even)
-    return min(even, scene.passages - done)
+    pause = scene.calendar.pause(done)
+    return min(even, scene.passages - done, *(() if pause is None else (pause - done,)))

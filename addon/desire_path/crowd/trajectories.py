@@ -20,6 +20,7 @@ from ..errors import DesirePathError
 from ..files import atomic_file, table
 from .choice import Passage, kinds_of
 from .scene import Scene
+from .stays import Walked
 
 sqlite3 = lazy.module("sqlite3")  # a Python may come without it
 
@@ -31,7 +32,7 @@ NAME = "recorded"  # where such walkers come from and go to
 
 
 def read(path: str | os.PathLike[str]) -> list[np.ndarray]:
-    """The way (n, 2) [m] of each walker of a file, in the order in which they come; a sentence for what is none."""
+    """The path (n, 2) [m] of each walker of a file, in the order in which they come; a sentence for what is none."""
     path = os.fspath(path)
     try:
         with atomic_file.reader(path) as file:
@@ -112,7 +113,7 @@ def _is_row(row: Sequence[Any]) -> bool:
 
 
 def _parted(path: str, rows: np.ndarray) -> list[np.ndarray]:
-    """The ways of walkers, who comes first first."""
+    """The paths of walkers, who comes first first."""
     rows = rows[np.lexsort((rows[:, 0], rows[:, 1]))]
     begins = np.r_[0, np.flatnonzero(np.diff(rows[:, 1])) + 1]
     steps = np.diff(rows[:, 0])
@@ -161,8 +162,8 @@ class Recorded:
     def passages(self, first: int, count: int) -> list[Passage]:
         return [Passage(n, kind, 0, 0, (0.0, 0.0)) for n, kind in enumerate(kinds_of(self.scene, first, count), first)]
 
-    def ways(self, load: np.ndarray, passages: Iterable[Passage]) -> list[np.ndarray]:
-        return [self._ways[each.number] for each in passages]
+    def ways(self, load: np.ndarray, passages: Iterable[Passage]) -> list[Walked]:
+        return [Walked.straight(self._ways[each.number]) for each in passages]
 
     def direct(self, passage: Passage) -> float:
         """From end to end [m]."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from .covers import LANE
 
-BESIDE = 0.28  # standard deviation of feet beside a way [m]
+BESIDE = 0.28  # standard deviation of feet beside a path [m]
 
 
 def tread(ways: Sequence[np.ndarray], weights: Sequence[float], shape: tuple[int, int], cell: float) -> np.ndarray:
