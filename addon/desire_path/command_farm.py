@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import Any
 
-from .command_bake import bake_of, bake_options, bar, walked
+from .command_bake import MEMORY_HELP, bake_of, bake_options, bar, walked
 from .errors import DesirePathError
 from .farm import merge, plan, send, task
 from .farm.job import Job
@@ -42,7 +42,12 @@ def _plan(args: argparse.Namespace) -> None:
 
 def _tile(args: argparse.Namespace) -> None:
     result: dict[str, Any] = task.run(
-        Job(args.job), args.window, args.tile, args.threads, lambda share: bar(share, "of the window")
+        Job(args.job),
+        args.window,
+        args.tile,
+        args.threads,
+        lambda share: bar(share, "of the window"),
+        limit=args.memory or None,
     )
     did = result["report"].get("contacts")
     print(f"window        {args.window}")
@@ -54,7 +59,7 @@ def _tile(args: argparse.Namespace) -> None:
 def _merge(args: argparse.Namespace) -> None:
     job = Job(args.job)
     folder = args.out or job.path("bake")
-    report = merge.merge(job, folder, lambda share: bar(share, "of the frames"))
+    report = merge.merge(job, folder, lambda share: bar(share, "of the frames"), limit=args.memory or None)
     print(f"contacts      {report['contacts']}")
     print(f"deepest       {1000 * report['deepest_m']:.1f} mm")
     print(f"seconds       {report['seconds']:.2f} of all tasks")
@@ -82,8 +87,10 @@ def add(tasks: argparse._SubParsersAction[Parser]) -> None:
     one.add_argument("--window", type=int, required=True, help="its number, from 0 on")
     one.add_argument("--tile", type=int, required=True, help="its number, from 0 on, row by row from the lowest y")
     one.add_argument("--threads", type=int, default=0, help="0 = all; the result does not depend on it")
+    one.add_argument("--memory", metavar="SIZE", help=MEMORY_HELP)
     one.set_defaults(task=_tile, out=None)
     all_of = parts.add_parser("merge", help="write the bake that all tasks have made together")
     all_of.add_argument("job", help="the folder that farm plan wrote")
     all_of.add_argument("--out", help="folder for the files (bake, in the job's)")
+    all_of.add_argument("--memory", metavar="SIZE", help=MEMORY_HELP)
     all_of.set_defaults(task=_merge)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .bounds import size_text
@@ -48,11 +48,12 @@ def check(limit: float | None, more: float = 0.0) -> None:
         _refuse_below(_native.memory_resident() + more + LEAST, limit)
 
 
-def check_rest() -> None:
-    """Refuse a limit that leaves too little for work beside what cannot leave; nothing where none is kept to."""
+def check_rest(more: float = 0.0) -> None:
+    """Refuse a limit that leaves too little for work beside what cannot leave, more of which is yet to come [bytes];
+    nothing where none is kept to."""
     if _limits:
         _native.memory_leave()
-        _refuse_below(_native.memory_needs() + ROOM, min(_limits))
+        _refuse_below(_native.memory_needs() + more + ROOM, min(_limits))
 
 
 def check_kept() -> None:
@@ -76,6 +77,19 @@ def contents(file: Any) -> memoryview:
     for first in range(0, size, STRETCH):
         file.readinto(found[first : first + STRETCH])
         _native.memory_ease()
+    return found
+
+
+def joined(parts: Sequence[bytes | memoryview]) -> memoryview:
+    """Bytes one after the other, in memory that may leave."""
+    found = memoryview(_native.block(sum(len(part) for part in parts)))
+    at = 0
+    for part in parts:
+        for first in range(0, len(part), STRETCH):
+            piece = part[first : first + STRETCH]
+            found[at : at + len(piece)] = piece
+            at += len(piece)
+            _native.memory_ease()
     return found
 
 

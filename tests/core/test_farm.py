@@ -95,6 +95,26 @@ def test_what_moves_by_itself_goes_from_window_to_window(crowd, tmp_path, soil, 
     assert files(job.path("bake")) == files(made.folder)
 
 
+@pytest.mark.parametrize(("law", "deep"), [("sole", 0.0), ("carve", 0.03), ("carve", 0.0)])
+def test_what_bodies_push_across_tiles_is_the_whole_bake_to_the_bit(tmp_path, law, deep):
+    """Two crates dragged 1.3 m through tiles of 1.28 m, by their weight, 3 cm deep, and just over the ground."""
+    from test_plough import dragged  # here: who takes files() from elsewhere has no folder of core tests to look in
+
+    one = shifted(dragged(law, far=1.3, seconds=2.6), 0.0, 0.0)
+    pose = np.array(one.pose)
+    pose[..., 2] -= deep
+    one = replace(one, pose=pose)
+    gait = Gait.join([one, shifted(one, 0.3, 5.0)])
+    made = bake(gait, tmp_path / "whole", end=80)
+    list(made.run())
+    assert made.report["loosened_m3"] > 1e-3 or (law, deep) == ("carve", 0.0)
+    told = plan.plan(bake(gait, tmp_path / "other", end=80), tmp_path / "job", (3, 2), 3)
+    assert not told.chained and told.most <= 2
+    job = work(tmp_path / "job")
+    assert merge.merge(job)["heaped_m3"] == pytest.approx(made.report["heaped_m3"], rel=1e-9)
+    assert files(job.path("bake")) == files(made.folder)
+
+
 @pytest.fixture(scope="module")
 def planned(crowd, tmp_path_factory):
     folder = tmp_path_factory.mktemp("farm") / "job"

@@ -6,6 +6,7 @@ import resource
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -17,13 +18,17 @@ from desire_path.bake.bake import Bake, read_index
 from desire_path.bake.options import BakeOptions
 from desire_path.core import _native
 from desire_path.crowd import scene as scenes
+from desire_path.crowd.crowd import Crowd
+from desire_path.crowd.feet import Feet
 from desire_path.errors import DesirePathError
+from desire_path.farm import merge, plan, task
+from desire_path.farm.job import Job
 from desire_path.ground import maps
 from desire_path.ground.sim import Ground
 from desire_path.motion.gait import Gait
 from desire_path.study.trampling import WALK
 from tests.core.test_bake import sentence
-from tests.scenes.crowds import pressed
+from tests.scenes.crowds import park, pressed
 
 REPO = Path(__file__).resolve().parents[2]
 MB = 1e6
@@ -54,6 +59,34 @@ def grow(folder, limit=None):
         pass
 
 
+WIDE = [(1, 1), (13, 1.5), (1, 6.5), (13, 7), (7, 0.6), (7, 7.4)]
+
+
+def tread(folder, limit=None):
+    """Feet of a crowd in cells so small that they take more memory than Python does."""
+    places = [{"name": f"gate {n}", "at": list(at), "radius": 0.5} for n, at in enumerate(WIDE)]
+    ground, press = {"pull": 0.0, "detour": 0.0}, {"box": [2, 1, 12, 7], "cell": 0.003}
+    given = {"size": [14, 8], "places": places, "passages": 4, "renewals": 1, "ground": ground, "press": press}
+    with memory.held(limit, folder):
+        Crowd(scenes.of(given), folder).run()
+        Feet(scenes.of(given), folder).press()
+
+
+def farm(folder, limit=None):
+    """The same bake as two tasks that follow each other."""
+    plan.plan(bake(Path(folder) / "other", limit), folder, (1, 1), 2)
+    job = Job(folder)
+    for window in (0, 1):
+        task.run(job, window, 0, limit=limit)
+    merge.merge(job, limit=limit)
+
+
+def choose(folder, limit=None):
+    """A crowd on so many cells that their fields take more memory than Python does."""
+    with memory.held(limit, folder):
+        Crowd(scenes.of(park(size=[400, 400], passages=4, renewals=2)), folder).run()
+
+
 def child(call, **more):
     """Python that does it, after it has come to its end."""
     code = CHILD.format(addon=str(REPO / "addon"), repo=str(REPO), call=call)
@@ -74,9 +107,10 @@ def files(folder):
     return found, {name: report[name] for name in report if name not in ("seconds", "stages")}
 
 
-def least(work="run"):
-    """The smallest limit [bytes] that a Python of its own says it keeps to."""
-    told = child(f"{work}('/nowhere', 1e7)").stderr
+def least(work="run", low=1e7):
+    """The smallest limit [bytes] that a Python of its own says it keeps to, asked for a lower one."""
+    with tempfile.TemporaryDirectory() as folder:
+        told = child(f"{work}({folder!r}, {low})").stderr
     return int(memory.size_of(told.rsplit("at least ", 1)[1].split(",")[0]))
 
 
@@ -86,6 +120,31 @@ def test_a_bake_keeps_to_its_limit_and_leaves_the_same_bits(tmp_path, work):
     assert peak(f"{work}({str(free)!r})") > 1.5 * limit  # so that something has to leave
     assert peak(f"{work}({str(tmp_path / 'held')!r}, {limit})") < 1.1 * limit
     assert files(free) == files(tmp_path / "held")
+
+
+def test_feet_of_a_crowd_keep_to_their_limit_and_leave_the_same_bits(tmp_path):
+    free, held, limit = tmp_path / "free", tmp_path / "held", 120e6
+    assert peak(f"tread({str(free)!r})") > 1.3 * limit
+    assert peak(f"tread({str(held)!r}, {limit})") < 1.1 * limit
+    for name in ("trodden_final.exr", "feet.json", "paths.csv"):
+        assert (held / name).read_bytes() == (free / name).read_bytes()
+
+
+def test_tasks_of_a_farm_keep_to_their_limit_and_leave_the_same_bits(tmp_path):
+    free, held, limit = tmp_path / "free", tmp_path / "held", 130e6
+    assert peak(f"farm({str(free)!r})") > 1.3 * limit
+    assert peak(f"farm({str(held)!r}, {limit})") < 1.1 * limit
+    assert files(free / "bake") == files(held / "bake")
+    with pytest.raises(DesirePathError, match="give at least"):
+        task.run(Job(held), 0, 0, limit="40M")
+
+
+def test_fields_of_a_crowd_that_a_limit_has_no_room_for_are_refused_before(tmp_path):
+    """They cannot leave: who asks for less than they take is told how much that is, and it is enough."""
+    assert "cannot be done in 0.15 GB" in child(f"choose({str(tmp_path / 'low')!r}, 1.5e8)").stderr
+    limit = least("choose", 1.5e8)
+    assert 1.6e8 < limit < 2.4e8
+    assert peak(f"choose({str(tmp_path / 'held')!r}, {limit})") < 1.1 * limit
 
 
 def test_a_killed_bake_leaves_its_state_alone_and_goes_on(tmp_path):
@@ -120,9 +179,10 @@ def test_a_full_disk_is_told(tmp_path):
     assert not list(tmp_path.rglob("memory*"))
 
 
-def test_what_comes_over_the_limit_and_cannot_leave_is_told(tmp_path):
+def over(folder):
+    """What is not the core's own comes over a limit, and goes."""
     limit = _native.memory_resident() + memory.LEAST
-    with memory.held(limit, tmp_path):
+    with memory.held(limit, Path(folder)):
         memory.check_kept()
         mine = np.ones(int(2 * memory.LEAST / 8))  # Python's own
         _native.memory_ease()
@@ -130,6 +190,11 @@ def test_what_comes_over_the_limit_and_cannot_leave_is_told(tmp_path):
             memory.check_kept()
         del mine
     memory.check_kept()
+
+
+def test_what_comes_over_the_limit_and_cannot_leave_is_told(tmp_path):
+    done = child(f"over({str(tmp_path)!r})")  # a process that has run other tests gives up memory of theirs instead
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,10 @@ def job(tmp_path_factory):
     return folder
 
 
-def test_the_command_line_of_openjd_bakes_it(job, tmp_path):
+@pytest.mark.parametrize("limit", ["", "4G"])
+def test_the_command_line_of_openjd_bakes_it(tmp_path, limit):
+    job = tmp_path / "job"
+    assert main(["farm", "plan", *CHOSEN, "--tiles", "2x2", "--windows", "2", "--out", str(job)]) == 0
     openjd = [sys.executable, "-m", "openjd.cli"] if not shutil.which("openjd") else ["openjd"]
     beside = Path(sys.executable).parent / "openjd"
     openjd = [str(beside)] if beside.exists() else openjd
@@ -35,7 +38,18 @@ def test_the_command_line_of_openjd_bakes_it(job, tmp_path):
     assert checked.returncode == 0, checked.stdout + checked.stderr
     path = os.pathsep.join([str(HOME.parent), os.environ.get("PYTHONPATH", "")])
     done = subprocess.run(
-        [*openjd, "run", template, "--run-dependencies", "--step", "Merge", "-p", f"Python={sys.executable}"],
+        [
+            *openjd,
+            "run",
+            template,
+            "--run-dependencies",
+            "--step",
+            "Merge",
+            "-p",
+            f"Python={sys.executable}",
+            "-p",
+            f"Memory={limit}",
+        ],
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": path},
@@ -73,7 +87,7 @@ def test_the_job_type_of_flamenco_makes_its_tasks(job, tmp_path):
     done = compiled(settings, tmp_path)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
-    assert {"python", *settings} == {each["key"] for each in found["type"]["settings"]}
+    assert {"memory", *settings} == {each["key"] for each in found["type"]["settings"]}
     names = [each["name"] for each in found["made"]]
     assert names[-1] == "merge" and names[0].startswith("window-0-tile-") and len(set(names)) == len(names)
     last = [name for name in names if name.startswith("window-1-")]
@@ -87,6 +101,10 @@ def test_the_job_type_of_flamenco_makes_its_tasks(job, tmp_path):
             "farm",
             each["name"].split("-")[0].replace("window", "tile"),
         ]
+    limited = json.loads(compiled({**settings, "memory": "4G"}, tmp_path).stdout)["made"]
+    for each, other in zip(found["made"], limited):
+        words = each["commands"][0]["parameters"]["args"]
+        assert other["commands"][0]["parameters"]["args"] == [*words, "--memory", "4G"] and "--memory" not in words
     first = [name for name in names if name.startswith("window-0-")]
     assert all(each["after"] == first for each in found["made"] if each["name"] in last)
     gap = json.loads(compiled({**settings, "tasks": "0,1;;2"}, tmp_path).stdout)["made"]

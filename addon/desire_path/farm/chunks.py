@@ -107,11 +107,11 @@ class Changes:
         return np.array(self._entries, ENTRY).tobytes(), b"".join(self._bytes)
 
 
-def unpack(table: bytes, tiles: bytes) -> list[tuple[int, int, int, bytes]]:
+def unpack(table: bytes | memoryview, tiles: bytes | memoryview) -> list[tuple[int, int, int, bytes]]:
     """[(number of the frame, x, y, packed bytes), ..], in the order of the frames."""
     found, at = [], 0
     for number, x, y, size in np.frombuffer(table, ENTRY).tolist():
-        found.append((number, x, y, tiles[at : at + size]))
+        found.append((number, x, y, bytes(tiles[at : at + size])))
         at += size
     if at != len(tiles):
         raise DesirePathError("The result of a task is not whole: run it again.")

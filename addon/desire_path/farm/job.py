@@ -22,6 +22,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..bake import state as states
 from ..core import _native
 from ..errors import DesirePathError
@@ -218,27 +219,24 @@ class Job:
     def _task(self, window: int, tile: int) -> dict[str, Any]:
         return {"job": self.digest, "window": window, "tile": tile}
 
-    def keep(self, window: int, tile: int, about: dict[str, Any], parts: Mapping[str, bytes]) -> None:
+    def keep(self, window: int, tile: int, about: dict[str, Any], parts: Mapping[str, bytes | memoryview]) -> None:
         """Write the result of a task, whole or not at all."""
         sizes = {name: len(part) for name, part in parts.items()}
-        states.write(
-            self.path(START if window < 0 else result_name(window, tile)),
-            {**about, "parts": sizes, **self._task(window, tile)},
-            memoryview(b"".join(parts.values())),
-        )
+        path = self.path(START if window < 0 else result_name(window, tile))
+        states.write(path, {**about, "parts": sizes, **self._task(window, tile)}, memory.joined(list(parts.values())))
 
-    def result(self, window: int, tile: int) -> tuple[dict[str, Any], dict[str, bytes]]:
+    def result(self, window: int, tile: int) -> tuple[dict[str, Any], dict[str, memoryview]]:
         """(what it tells, its parts by name) of the result of a task; states.Damaged where there is none, or not
         whole, or of another job."""
         path = self.path(START if window < 0 else result_name(window, tile))
         about, data = states.read(path, self._task(window, tile))
         parts, at = {}, 0
         for name, size in about["parts"].items():
-            parts[name] = bytes(data[at : at + size])
+            parts[name] = data[at : at + size]
             at += size
         return about, parts
 
-    def needed(self, window: int, tile: int, whose: str) -> tuple[dict[str, Any], dict[str, bytes]]:
+    def needed(self, window: int, tile: int, whose: str) -> tuple[dict[str, Any], dict[str, memoryview]]:
         """result() of a task that has to be there."""
         try:
             return self.result(window, tile)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..bake import report as reports
 from ..bake.contents import MAPS_ALWAYS
 from ..bake.folder import frame_name, list_sums, order_sums
@@ -27,6 +28,9 @@ from .task import take, with_datum
 
 Tiles = dict[tuple[int, int], bytes]
 LEDGER = 1e-6  # what was heaped is what was displaced, MODEL 11.3 [-]
+LITTLE = (
+    1e-6  # .. of what is displaced, this at least: a body that glides over the ground presses a rounding error [m^3]
+)
 FINAL = MAPS_ALWAYS[1]
 
 
@@ -48,12 +52,24 @@ def missing(job: Job) -> list[tuple[int, int]]:
 
 
 def merge(
-    job: Job, folder: str | os.PathLike[str] | None = None, progress: Callable[[float], object] | None = None
+    job: Job,
+    folder: str | os.PathLike[str] | None = None,
+    progress: Callable[[float], object] | None = None,
+    *,
+    limit: float | str | None = None,
 ) -> dict[str, Any]:
     """Write the bake to a folder, by default the job's own `bake`; returns its report.
 
-    DesirePathError where tasks are still to be done.
+    limit: of memory, in bytes or as "4G"; what does not fit waits in the job's folder
+    DesirePathError where tasks are still to be done, or the limit is too low.
     """
+    with memory.held(limit, job.folder):
+        return _merge(job, folder, progress)
+
+
+def _merge(
+    job: Job, folder: str | os.PathLike[str] | None, progress: Callable[[float], object] | None
+) -> dict[str, Any]:
     gone = missing(job)
     if gone:
         first = ", ".join(f"window {window} tile {tile}" for window, tile in gone[:3])
@@ -101,6 +117,7 @@ class _Merge:
                 for kind, name in self._due(number):
                     self._take(changes[kind], kind, number)
                     self._frame(kind, number, name)
+                memory.check_kept()
                 if progress:
                     progress(number / job.windows[-1].last)
             for kind in self.rest:
@@ -158,7 +175,7 @@ class _Merge:
         about = self.job.about
         report = self.found[-1] if self.job.chained else self._together()
         given = report["displaced_m3"] + report["loosened_m3"] - report["pressed_heap_m3"]
-        if abs(report["heaped_m3"] - given) > LEDGER * max(report["displaced_m3"], 1e-9) and not about["trail"]:
+        if abs(report["heaped_m3"] - given) > LEDGER * max(report["displaced_m3"], LITTLE) and not about["trail"]:
             raise DesirePathError(
                 "The ledger of the results does not balance: soil was lost between tasks. Plan the job anew, with a "
                 "larger --margin."

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..bake.bake import Bake
 from ..bake.grounds import simulations
 from ..bake.report import layer_of
@@ -49,7 +50,7 @@ class Summary:
     components: int
     most: int  # components of one window
     seconds: float  # of one core, for all of it
-    longest: float  # .. for one task after the other on the longest way through the windows
+    longest: float  # .. for one task after the other on the longest path through the windows
     bytes: int  # of the job as it was planned
     chained: str  # why all walkers count as one component; empty: they do not
     template: bool  # whether there is one of an Open Job Description: not of more windows than it may have
@@ -62,10 +63,16 @@ def plan(
 
     tiles: columns and rows of tasks; windows: how many follow each other; wide: how much more ground beside its soles a
     step is taken to change, for soil that goes far [m].
-    A folder with the same job keeps the results that are there; with another one it is refused.
+    A folder with the same job keeps the results that are there; with another one it is refused. The bake's limit of
+    memory is kept to meanwhile; tasks have their own.
     """
     _check(bake, tiles, windows, wide)
     folder = os.path.abspath(os.fspath(folder))
+    with memory.held(bake.options.memory, folder):
+        return _write(bake, folder, tiles, windows, wide)
+
+
+def _write(bake: Bake, folder: str, tiles: tuple[int, int], windows: int, wide: float) -> Summary:
     sims, loads, shares = simulations(bake)
     if len(sims) != 1 or len(shares) != 1:
         raise DesirePathError("A farm bakes one ground: give the bake one Ground, not several Parcels.")
@@ -85,7 +92,10 @@ def plan(
         "about": about,
     }
     atomic_file.write_json(os.path.join(folder, jobs.JOB), content, "The job")
-    start = {"tiles": rising(pieces.tiles(sim)).astype(np.int32).tobytes(), "state": bytes(sim.state())}
+    start: dict[str, bytes | memoryview] = {
+        "tiles": rising(pieces.tiles(sim)).astype(np.int32).tobytes(),
+        "state": sim.state(),
+    }
     Job(folder).keep(-1, 0, {}, start)
     owners = [sorted({each.owner for each in here}) for here in cut.components]
     return cut.summary(folder, send.write(folder, owners))

@@ -14,6 +14,7 @@ from ..files import atomic_file
 
 TEMPLATE, SETTINGS = "openjd.json", "flamenco.json"
 MAX_STEPS = 100  # of an Open Job Description
+LIMIT = ("--memory", "{{Param.Memory}}")  # empty = none
 
 
 def openjd(name: str, tasks: Sequence[Sequence[int]]) -> dict[str, Any] | None:
@@ -38,13 +39,14 @@ def openjd(name: str, tasks: Sequence[Sequence[int]]) -> dict[str, Any] | None:
         "parameterDefinitions": [
             {"name": "Job", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "INOUT", "default": "."},
             {"name": "Python", "type": "STRING", "default": "python"},
+            {"name": "Memory", "type": "STRING", "default": ""},
         ],
         "steps": steps,
     }
 
 
 def _step(name: str, args: list[str], before: list[dict[str, Any]]) -> dict[str, Any]:
-    run = {"command": "{{Param.Python}}", "args": ["-m", "desire_path", "farm", *args]}
+    run = {"command": "{{Param.Python}}", "args": ["-m", "desire_path", "farm", *args, *LIMIT]}
     step: dict[str, Any] = {"name": name, "script": {"actions": {"onRun": run}}}
     if before:
         step["dependencies"] = [{"dependsOn": before[-1]["name"]}]

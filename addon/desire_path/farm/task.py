@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import memory
 from ..bake import state as states
 from ..bake.report import carried
 from ..errors import DesirePathError
@@ -30,18 +31,29 @@ AT_ONCE = 16  # frames that wait to be looked at
 
 
 def run(
-    job: Job, window: int, tile: int, threads: int = 0, progress: Callable[[float], object] | None = None
+    job: Job,
+    window: int,
+    tile: int,
+    threads: int = 0,
+    progress: Callable[[float], object] | None = None,
+    *,
+    limit: float | str | None = None,
 ) -> dict[str, Any]:
     """Do a task, unless it was done; returns what its result tells of it.
 
-    DesirePathError where the job has no such task, a result it goes on from is not there, or soil went farther than
-    was planned.
+    limit: of memory, in bytes or as "4G"; what does not fit waits in the job's folder
+    DesirePathError where the job has no such task, a result it goes on from is not there, soil went farther than was
+    planned, or the limit is too low.
     """
     job.check_task(window, tile)
-    try:
-        return job.result(window, tile)[0]
-    except states.Damaged:
-        pass
+    with memory.held(limit, job.folder):
+        try:
+            return job.result(window, tile)[0]
+        except states.Damaged:
+            return _do(job, window, tile, threads, progress)
+
+
+def _do(job: Job, window: int, tile: int, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
     begun = time.perf_counter()
     components = [each for each in job.components(window) if each.owner == tile]
     if not components:
@@ -53,7 +65,7 @@ def run(
         _check_reach(job, window, tile, there, components)
     seconds = round(time.perf_counter() - begun, 3)
     about = {"report": sim.report(), "carried": carried([sim]), "seconds": seconds}
-    job.keep(window, tile, about, {"tiles": there.tobytes(), "state": bytes(sim.state()), **parts})
+    job.keep(window, tile, about, {"tiles": there.tobytes(), "state": sim.state(), **parts})
     return about
 
 
@@ -93,7 +105,7 @@ def _ground(job: Job, window: int, components: list[Component], threads: int) ->
     return sim
 
 
-def take(sim: Simulation, parts: dict[str, bytes], tiles: np.ndarray, walkers: np.ndarray) -> None:
+def take(sim: Simulation, parts: dict[str, memoryview], tiles: np.ndarray, walkers: np.ndarray) -> None:
     """Let a simulation take of a result those of some tiles that were touched there, and limbs."""
     there = np.frombuffer(parts["tiles"], np.int32).reshape(-1, 2)
     wanted = set(map(tuple, tiles.tolist()))
@@ -129,6 +141,7 @@ def _press(
             sim.run(job.samples[number])
             if films:
                 films.write(number, number == last)
+            memory.check_kept()
             if progress:
                 progress((number - first + 1) / (last - first + 1))
         return films.packed() if films else {}

@@ -28,12 +28,21 @@ const JOB_TYPE = {
             visible: "submission",
             description: "A Python with desire_path on all workers",
         },
+        {
+            key: "memory",
+            type: "string",
+            default: "",
+            visible: "submission",
+            description: "How much memory a task may take, as 4G; empty = as much as it needs",
+        },
     ],
 };
 
 function farmTask(settings, name, args) {
     const task = author.Task(name, "misc");
-    task.addCommand(author.Command("exec", { exe: settings.python, args: ["-m", "desire_path", "farm"].concat(args) }));
+    const limit = settings.memory ? ["--memory", settings.memory] : [];
+    const words = ["-m", "desire_path", "farm"].concat(args, limit);
+    task.addCommand(author.Command("exec", { exe: settings.python, args: words }));
     return task;
 }
 
