@@ -8,7 +8,7 @@
     folder/frames/index.json       where the frames lie and which are there
     folder/maps/second_0001.exr    the maps after every simulated second, TRAIL 4.3
     folder/maps/pass_0001.exr      or after a pass, where a frame is a pass
-    folder/maps_start.exr          plant_strength_in, young_modulus_in, plant_strength, rest
+    folder/maps_start.exr          a picture: young_modulus_in, plant_strength_in, plant_strength, rest
     folder/maps_final.exr          compression, heap, pressure_time, plant_strength, rest, pressure; lean_x ..
     folder/plants.pc2, plants.npz  when asked for: the plants themselves, see plant_mesh.py
     folder/report.json             what happened, in numbers

@@ -18,7 +18,7 @@ from ..motion.points import point_places
 from ..tables import Number, check_some, table
 from .below import GivenHeights, GroundHeights, Heights, carried_on, ground_below, heights_of, off_ground, on_even
 from .carving import carved
-from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, hovers, off, sinks, slides, weigh
+from .checks import HOVER, MEAN_FORCE, SLIDE, STILL, Sunk, elsewhere, falls, hovers, off, pushes, sinks, slides, weigh
 from .force import ELSEWHERE, GRAVITY, PRESSES, FootForce, native_gait, write_loads
 from .times import RATE, at_times, even_rate, frame_rate_of, nearest
 from .turns import Turn, each_found, let_go, middle, standing, together, turns_of
@@ -202,7 +202,10 @@ def _loads_of(
         taus,
     )
     point, clearance = point * size, clearance * size
-    mean, warnings = weigh(person, touching, force) if model == "inertia" else (None, [])
+    mean, warnings = None, list[str]()
+    if model == "inertia":  # forces of the other are no sums of what moves the body
+        mean, odd = weigh(person, touching, force)
+        warnings = odd + pushes(even, person, force)
     places = point_places(even)
     sinks(even, below)
     warnings = hovers(even, touching, clearance, size) + slides(even, places, touching, size) + warnings
@@ -214,6 +217,7 @@ def _loads_of(
         touching, force, point = (np.ascontiguousarray(each[:, ::every]) for each in (touching, force, point))
     elif not every:
         touching, force, point = at_times(gait.time, even.time, touching, force, point)
+    warnings += falls(gait, touching, size)
     return FootForce(gait.time, touching, force, point, clearance, mean, tuple(warnings))
 
 

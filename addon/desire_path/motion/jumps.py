@@ -75,7 +75,7 @@ def sentences(name: str, jumps: Sequence[tuple[float, float, float]]) -> list[st
     if not jumps:
         return []
     a, b, size = max(jumps, key=lambda each: each[2])
-    first = f"{name} jumps {size:.2g} m between frames {a:g} and {b:g}"
+    first = f"{name} jumps {size:.2g} m between frames {round(a, 2):g} and {round(b, 2):g}"
     if len(jumps) == 1:
         return [f"{first}: taken as a cut, over which nothing moves."]
     return [f"{first}, and {len(jumps) - 1} more times elsewhere: taken as cuts, over which nothing moves."]
@@ -102,10 +102,11 @@ def between(
     if len(time) < 3:
         return []
     leg = max(float(np.median(np.linalg.norm(com - feet, axis=-1).max(axis=0))), min_leg)
-    frames = np.flatnonzero(abs((time - start) * frame_rate - np.round((time - start) * frame_rate)) < 1e-3)
+    runs = _frames(time, frame_rate, start)
     jumps = [
         _at_once(com, int(frames[a]), int(frames[b]), size)
-        for a, b, size in (_steps(time[frames], com[frames], feet[:, frames], leg) if len(frames) < len(time) else ())
+        for frames in (runs if len(runs) != 1 or len(runs[0]) < len(time) else ())
+        for a, b, size in _steps(time[frames], com[frames], feet[:, frames], leg)
     ]
     for _ in range(2):  # what a jump leaves on its other side may be one, too
         ends = [0, *(sample for a, b, _ in sorted(jumps) for sample in (a + 1, b)), len(time)]
@@ -114,7 +115,8 @@ def between(
             part = slice(first, after)
             more += [(first + a, first + b, size) for a, b, size in _steps(time[part], com[part], feet[:, part], leg)]
         jumps += more
-    for pairs in (frames[::2], frames[1::2]) if 2.0 / frame_rate < COARSE + 1e-6 else ():
+    halves = [frames[odd::2] for frames in runs for odd in (0, 1)]
+    for pairs in halves if 2.0 / frame_rate < COARSE + 1e-6 else ():
         for k, after, size in _steps(time[pairs], com[pairs], feet[:, pairs], leg):
             a, b, size = _at_once(com, int(pairs[k]), int(pairs[after]), size)
             if not any(a < other[1] and other[0] < b for other in jumps):
@@ -122,8 +124,15 @@ def between(
     return sorted(jumps)
 
 
+def _frames(time: np.ndarray, frame_rate: float, start: float) -> list[np.ndarray]:
+    """Samples that whole frames show, in runs of frames that follow each other."""
+    at = (time - start) * frame_rate
+    shown = np.flatnonzero(abs(at - np.round(at)) < 1e-3)
+    return np.split(shown, np.flatnonzero(np.diff(np.round(at[shown])) > 1.0) + 1)
+
+
 def _at_once(com: np.ndarray, a: int, b: int, size: float) -> Jump:
-    """A jump from a sample to a later one, between two of them only where most of the way lies."""
+    """A jump from a sample to a later one, between two of them only where most of the displacement lies."""
     path = np.linalg.norm(np.diff(com[a : b + 1], axis=0), axis=1)
     if path.max() > AT_ONCE * np.linalg.norm(com[b] - com[a]):
         a += int(path.argmax())

@@ -1,1 +1,1 @@
-"""Where walkers go: when they arrive from where, what pulls them aside, and the way. Experimental: names may change."""
+"""Where walkers go: when they arrive from where, what pulls them aside, their path. Experimental: names may change."""

@@ -136,7 +136,7 @@ def goal_around(cost: Any, at: Sequence[float], radius: float, cell: float) -> t
 
 
 def direction(time: Any, cell: float) -> np.ndarray:
-    """Which way times of arrival() fall steepest: e = unit(-grad T). MODEL 12.2
+    """The direction in which times of arrival() fall steepest: e = unit(-grad T). MODEL 12.2
 
     Returns float32 (ny, nx, 2), x and y of unit vectors; 0 in obstacles, on islands and at a goal.
     """

@@ -108,7 +108,7 @@ def _decay(off: float, speed: float, spring: float, damp: float, step: float) ->
 
 
 def grade(gait: Gait, touching: np.ndarray, clearance: np.ndarray, walker: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """(slope of what a walker's feet stand on (T,) [-], the way they point (T, 2)) at each sample.
+    """(slope of what a walker's feet stand on (T,) [-], their direction (T, 2)) at each sample.
 
     touching (P, T), clearance (K,): as contacts() has them
     A plane through the places where its feet rest, those of now most of all.

@@ -16,7 +16,7 @@ Land: TypeAlias = Callable[[np.ndarray], np.ndarray]  # places (n, 2) -> heights
 
 
 class Pace:
-    """A speed that changes evenly along the way, from its start to its end [m/s]."""
+    """A speed that changes evenly along the path, from its start to its end [m/s]."""
 
     def __init__(self, length: float, start: float, end: float) -> None:
         self.length, self.start, self.end = length, start, end

@@ -102,7 +102,7 @@ def rolled(
     curve: ArrayLike, wheel: Wheel | Vehicle = Wheel(), drive: Drive = Drive(), ground: GroundHeights = None
 ) -> Gait:
     """A wheel, a left and a right one, or all those of a vehicle, upright along a curve (n, 2 or 3) [m] without slip:
-    each turns by its own way over its radius. What they weigh is shared, between axles as the vehicle says.
+    each turns by the length of its path over its radius. What they weigh is shared, between axles as the vehicle says.
 
     ground: as for stamped(). The foremost axle goes from the curve's start to its end; what lies behind it comes
     straight from before the start. Wheels that are told their depth come down at the start and are lifted at the end.
@@ -167,7 +167,7 @@ class _Feet:
     end: np.ndarray  # .. to here
     at: np.ndarray  # where it is then (n, 3) [m]
     turn: np.ndarray  # quaternions (n, 4)
-    ahead: np.ndarray  # which way it goes (n, 3)
+    ahead: np.ndarray  # direction in which it goes (n, 3)
     speed: float  # of who goes there [m/s]
     lift: float  # in between it is so much higher [m]
     rise: float  # in this time it comes straight up, or down [s]

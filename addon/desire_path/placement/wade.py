@@ -21,6 +21,7 @@ from ..loads.force import FootForce
 from ..motion import size as sizes
 from ..motion import tracks
 from ..motion.gait import AUTO, Gait
+from . import shank
 
 DEEP = 0.03  # feet that sink less leave what they do not clear to their soles [m]
 HOLDS = 0.9  # of its depth: a leg stands so far in its print, which the sole presses
@@ -133,11 +134,13 @@ def wade(gait: Gait, trial: Simulation, lift: float | None = None, *, walkers: C
             down = HOLDS * _lowered(time, first, stances, RISE * math.sqrt(size), most)
             tracks.put(lowered, parts, np.arange(first, first + count), down[None])
     deepest = max(float(values.max(initial=0.0)) for values in tracks.values(lowered))
-    return gait if deepest < HOLDS * DEEP else _with_legs(gait, lowered, wades)
+    if deepest < HOLDS * DEEP:
+        return gait
+    return _with_legs(gait, lowered, wades, deepest > HOLDS * shank.ANKLE * float(gait.leg.min()))
 
 
-def _with_legs(gait: Gait, lowered: tracks.Array, wades: np.ndarray) -> Gait:
-    """The recording, and legs of those who wade (W,) that go as much lower as told (P, T) [m]."""
+def _with_legs(gait: Gait, lowered: tracks.Array, wades: np.ndarray, shins: bool) -> Gait:
+    """The recording, and legs of those who wade (W,) that go as much lower as told (P, T) [m]; with shins, or not."""
     pose = tracks.writable(gait.pose)
     for values, down in zip(tracks.values(pose), tracks.values(lowered)):
         values[..., 2] -= down
@@ -149,5 +152,7 @@ def _with_legs(gait: Gait, lowered: tracks.Array, wades: np.ndarray) -> Gait:
         contact_law=("carve",) * len(gait.mass),
         warnings=(),
     ).only(np.flatnonzero(wades))
+    if shins:
+        legs = shank.shod(legs, gait.only(np.flatnonzero(wades)))
     laws = gait.contact_law or (AUTO,) * len(gait.mass)
     return Gait.join([replace(gait, contact_law=laws), legs])

@@ -134,7 +134,7 @@ def _knee(bones: SampledBones, leg: Segment, hip: np.ndarray, ankle: np.ndarray,
     """Where the knee is that a leg has no bone for (T, 3).
 
     A leg is as long as in the rest pose, halved by its knee (Winter, figure 4.1: 0.245 and 0.246 of the
-    height): an ankle nearer to the hip than that bends it ahead, the way the feet point.
+    height): an ankle nearer to the hip than that bends it ahead, where the feet point.
     """
     half = np.linalg.norm(bones.mean(leg.end, rest=True) - bones.mean(leg.start, rest=True)) / 2.0
     down = ankle - hip

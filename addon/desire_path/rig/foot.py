@@ -26,7 +26,7 @@ SHORT_FOOT = 0.85  # a person's foot is no shorter than this share of that; toe 
 FOOT_TO_LEG = 0.22  # a foot bone longer than this share of the leg ends at the tip, not at the ball
 ASTRAY = np.radians(75.0)  # a toe bone that points this far off ankle-to-ball says nothing of where toes end
 LONG = 2.0  # nor does one longer than this many times ankle-to-ball
-SIDEWAYS = np.cos(np.radians(70.0))  # a last bone that points so far off the way the body faces tells no foot
+SIDEWAYS = np.cos(np.radians(70.0))  # a last bone that points so far off where the body faces tells no foot
 FAR_TAIL = 0.6  # nor does one longer than this share of the leg
 GUESS = (0.17, 0.06)  # ankle to ball where nothing tells: ahead and down, in shares of the leg
 PAW = 0.6  # a foot of many that goes down by this share of ankle-to-ball stands on its toes alone
@@ -251,7 +251,7 @@ class Foot:
         forward = tip - ankle
         across = forward - (forward @ up)[:, None] * up
         if stays.median(np.linalg.norm(across, axis=1) / np.linalg.norm(forward, axis=1), weight) < 0.3:
-            if ahead is None:  # the foot bone stands upright: face the way of the rest pose
+            if ahead is None:  # the foot bone stands upright: face as in the rest pose
                 rest = rotation.square(self.bones.rest[self.bones.row[self.slots.foot], :3, :3])
                 ahead = foot_turn @ (rest.T @ ahead_rest)
             across = np.broadcast_to(ahead, forward.shape)

@@ -29,7 +29,7 @@ class RestPose(Record):
 
     skeleton: Skeleton
     up: np.ndarray  # in rest space (3,)
-    ahead: np.ndarray  # the way it faces there (3,)
+    ahead: np.ndarray  # direction in which it faces there (3,)
     skin: Skin | None = None  # what soles are cut from
     laid: treads.Laid | None = None  # else what is laid under them
     tread: str = "plain"  # of soles that are built in, one of TREADS

@@ -11,7 +11,7 @@ from ..motion import rotation
 
 STRETCH = 0.995  # legs reach this share of their length, or as far as they did [-]
 FORWARD = 0.01  # a knee bends at least so far to its own side, in leg lengths: straight legs bend as others
-ELBOW = 0.03  # legs whose middle is this far behind, in leg lengths, bend that way
+ELBOW = 0.03  # legs whose middle is this far behind, in leg lengths, bend backward
 
 
 def length(hip: np.ndarray, knee: np.ndarray, ankle: np.ndarray) -> np.ndarray:

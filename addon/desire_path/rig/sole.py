@@ -214,7 +214,7 @@ def coarse_cells(gait: Gait, cell: float) -> list[str]:
     warnings, reported, carving = [], set[int](), gait.carving()
     for walker, name in enumerate(gait.walker_name):
         wide, parts = 0.0, np.flatnonzero(np.asarray(gait.limb_walker)[gait.part_limb] == walker).tolist()
-        if carving[walker] and all(id(gait.soles[part]) in reported for part in parts):
+        if carving[walker] and any(id(gait.soles[part]) in reported for part in parts):
             continue  # legs of one who wades
         reported.update(id(gait.soles[part]) for part in parts)
         for part in parts:
