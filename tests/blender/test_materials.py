@@ -8,7 +8,7 @@ from scenes import meshes
 from test_bake import refused
 from test_refined import baked, copy_of, plane
 
-from desire_path.blender import compat, looks, materials, playback_tree
+from desire_path.blender import compat, look_soils, looks, materials, playback_tree
 from desire_path.ground.soil import SOILS
 
 SIZE = 24  # pixels of a picture along each side
@@ -59,14 +59,15 @@ def two_halves(obj):
 
 def test_every_soil_has_a_look():
     known = {"dry-sand": "SAND", "snow": "SNOW", "mud": "MUD", "soil": "EARTH", "wet-soil": "EARTH"}
+    known |= {"crust-snow": "CRUST", "packed-earth": "PACKED", "packed-snow": "SNOW"}
     for name in SOILS:
-        look, wet = materials.look_of(name)
-        assert look in looks.LOOKS and known.get(name, look) == look and 0.0 <= wet <= 1.0
-    assert materials.look_of("deep-snow")[0] == "SNOW" and materials.look_of("wet-sand")[0] == "SAND"
-    assert materials.look_of("wet-soil")[1] > materials.look_of("soil")[1]
+        look, wet = look_soils.look_of(name)
+        assert look in look_soils.LOOKS and known.get(name, look) == look and 0.0 <= wet <= 1.0
+    assert look_soils.look_of("deep-snow")[0] == "SNOW" and look_soils.look_of("wet-sand")[0] == "SAND"
+    assert look_soils.look_of("wet-soil")[1] > look_soils.look_of("soil")[1]
     for name in ("dry-sand", "snow", "mud", "soil"):
         material = make(ground(name, name))
-        assert materials.look_of(name)[0].capitalize() in material.name
+        assert look_soils.look_of(name)[0].capitalize() in material.name
     assert len(bpy.data.materials) == 4
 
 

@@ -64,17 +64,51 @@ def test_pressed_ground_is_seen_in_a_picture(folder):
             assert darker < (0.97 if kind == "SNOW" else 0.85), (kind, darker)
 
 
-def test_mud_shines_where_it_was_pressed(folder):
-    obj = two_halves(ground("mud"))
-    bake_by_hand(obj, 0.03)
+def glowing(obj, output):
+    """Let an object glow by what the group of its material says."""
     tree = make(obj).node_tree
     group, leave = (
         next(n for n in tree.nodes if n.bl_idname == f"ShaderNode{kind}") for kind in ("Group", "OutputMaterial")
     )
-    for output, most in (("Roughness", 0.6), ("Color", 0.8)):
-        tree.links.new(group.outputs[output], leave.inputs["Surface"])  # it glows by that value
-        level, pressed = halves(folder, output)
-        assert 0.0 < pressed.mean() < most * level.mean()
+    tree.links.new(group.outputs[output], leave.inputs["Surface"])
+
+
+def test_mud_shines_where_it_was_pressed_and_where_it_slid_back(folder):
+    for heap in (0.0, 0.010):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = two_halves(ground("mud"))
+        bake_by_hand(obj, 0.03, heap)
+        for output, most in (("Roughness", 0.6), ("Color", 0.8)):
+            glowing(obj, output)
+            level, pressed = halves(folder, f"{output}_{heap}")
+            assert 0.0 < pressed.mean() < most * level.mean(), (output, heap)
+
+
+def test_crusts_crack_where_they_are_lifted(folder):
+    for soil, lifted in (("crust-snow", 0.003), ("packed-earth", 0.002)):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = two_halves(ground(soil))
+        glowing(obj, "Color")
+        whole = rendered(folder, soil)
+        bake_by_hand(obj, 0.0, lifted)
+        darker = rendered(folder, f"{soil}_lifted") < 0.9 * whole
+        assert not darker[: SIZE // 2 - 1].any(), soil
+        cracked = darker[SIZE // 2 + 1 :].all(axis=2).mean()
+        assert 0.005 < cracked < 0.5, (soil, cracked)  # plates lie between
+
+
+def test_crumbs_end_where_they_meet(folder):
+    """A step between two is a straight scratch once light falls on it."""
+    obj = two_halves(ground("soil"))
+    tree = make(obj).node_tree
+    n = looks.Shade(tree)
+    place = n.add("ShaderNodeTexCoord").outputs["Object"]
+    leave = next(each for each in tree.nodes if each.bl_idname == "ShaderNodeOutputMaterial")
+    for away in (0.0, 1.8, 2.2):
+        moved = n.vector("ADD", place, (away, 0.0, 0.0))
+        tree.links.new(n.crumbs(moved, 4.0), leave.inputs["Surface"])  # it glows by how high they are
+        high = rendered(folder, f"{away}")[..., 0]
+        assert max(np.abs(np.diff(high, axis=axis)).max() for axis in (0, 1)) < 0.25, away
 
 
 def test_without_a_bake_it_is_as_nobody_walked(folder):

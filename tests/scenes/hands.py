@@ -5,6 +5,7 @@
 A story is a generator that yields how long to wait [s]; `tell` runs it and closes Blender at its end.
 """
 
+import contextlib
 import os
 import sys
 import time
@@ -13,6 +14,8 @@ import traceback
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+from desire_path.ground import sim
 
 KEYS = {" ": "SPACE", "\n": "RET"}
 
@@ -25,6 +28,23 @@ def slowed(write_frame, seconds=0.02):
         time.sleep(seconds)
 
     return slowly
+
+
+@contextlib.contextmanager
+def full_disk(picture):
+    """No disk has room for a picture of frames by this name, as trail_0007.exr."""
+    write_frame = sim.Film.write_frame
+
+    def full(film, path, moment):
+        if path is not None and path.endswith(picture):
+            raise OSError(28, "No space left on device", path)
+        write_frame(film, path, moment)
+
+    sim.Film.write_frame = full
+    try:
+        yield
+    finally:
+        sim.Film.write_frame = write_frame
 
 
 class Hands:

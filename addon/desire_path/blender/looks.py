@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from . import compat, playback_tree, wiring
+from . import compat, look_soils, playback_tree, wiring
 
 TAG = "desire_path_look"  # custom property on node groups and materials that are ours: what they are made for
 SHARE = "desire_path_share_{}"  # float attribute of a painted soil, sum of all at most 1
-VERSION = 4  # of the groups: an old one in a file is left to its users
+VERSION = 6  # of the groups: an old one in a file is left to its users
 FRAYED = 34.0  # lumps in a metre at the border of two soils
 OUTPUTS = {
     "Color": "NodeSocketColor",
@@ -39,7 +39,29 @@ class Shade(wiring.Wiring):
         """Round lumps side by side, so many in a metre: 0 between them, up to 1 on top of the largest."""
         node = self.add("ShaderNodeTexVoronoi", Vector=at, Scale=scale)
         size = self.split(node.outputs[1])[0]  # by chance
-        return self.math("MULTIPLY", self.between(node.outputs[0], 0.0, 0.7, 1.0, 0.0), self.math("POWER", size, 1.6))
+        # where lumps meet they end: a step from one to another would be a scratch
+        edge = self.add("ShaderNodeTexVoronoi", {"feature": "DISTANCE_TO_EDGE"}, Vector=at, Scale=scale)
+        round_so = self.between(node.outputs[0], 0.0, 0.7, 1.0, 0.0)
+        ends = self.between(compat.socket(edge.outputs, "Distance"), 0.0, 0.2)
+        return self.math("MULTIPLY", self.math("MULTIPLY", round_so, ends), self.math("POWER", size, 1.6))
+
+    def plates(self, at, wide, gap):
+        """Ground that has cracked into plates so wide, with gaps half of which are up to so wide [m].
+
+        Returns (1 in a gap and 0 beside it, how high the plates stand that lie askew: about zero, by their width)
+        """
+        stray = self.add("ShaderNodeTexNoise", Vector=at, Scale=2.2 / wide, Detail=3.0, Roughness=0.6).outputs[1]
+        stray = self.vector("SUBTRACT", stray, (0.5, 0.5, 0.5))
+        at = self.vector("MULTIPLY_ADD", stray, (0.5 * wide,) * 3, at)
+        inside = self.add("ShaderNodeTexVoronoi", Vector=at, Scale=1.0 / wide).outputs
+        edge = self.add("ShaderNodeTexVoronoi", {"feature": "DISTANCE_TO_EDGE"}, Vector=at, Scale=1.0 / wide)
+        edge = self.math("MULTIPLY", compat.socket(edge.outputs, "Distance"), wide)
+        open_so = self.between(self.noise(at, 0.6 / wide, 1.0), 0.42, 0.68, 0.0, gap)
+        askew = self.vector("SUBTRACT", inside[1], (0.5, 0.5, 0.5))
+        away = self.vector("SUBTRACT", at, compat.socket(inside, "Position"))
+        high = self.math("MULTIPLY", self.vector("DOT_PRODUCT", askew, away), 1.0 / wide)
+        gaps = self.between(self.math("DIVIDE", edge, self.math("MAXIMUM", open_so, 1e-5)), 0.4, 1.0, 1.0, 0.0)
+        return gaps, high
 
     def mix(self, share, first, last):
         """Colours; numbers by `blend`."""
@@ -54,127 +76,6 @@ class Shade(wiring.Wiring):
         for high, noise in parts:
             total = self.math("MULTIPLY_ADD", self.math("SUBTRACT", noise, 0.5), high, total)
         return total
-
-
-@dataclass(frozen=True)
-class Spot:
-    """A place on a ground, as sockets."""
-
-    at: object  # where it is on the ground, vector [m]
-    compression: object  # pressed below the first height [m]
-    heap: object  # loose soil piled above it [m]
-    wet: object  # share
-
-
-def _pressed(n, spot, deep):
-    """1 where the ground was pressed so deep and nothing loose lies on it, 0 where it was not."""
-    bare = n.between(spot.heap, 0.0005, 0.004, 1.0, 0.0)
-    return n.math("MULTIPLY", n.between(spot.compression, 0.06 * deep, deep), bare)
-
-
-def _loose(n, spot):
-    """1 where loose soil lies on the ground."""
-    return n.between(spot.heap, 0.0004, 0.005)
-
-
-def _wetted(n, wet, colour, rough, specular, shine=0.38):
-    """A look as it is when it is wet: darker, and it shines."""
-    dark = n.math("MULTIPLY_ADD", wet, -0.55, 1.0)
-    colour = n.vector("SCALE", colour, scale=dark)
-    return colour, n.blend(wet, rough, shine), n.blend(wet, specular, 0.5)
-
-
-def _sand(n, spot):
-    """Grains of many colours; what was below the surface is a little damp."""
-    grain, single = n.noise(spot.at, 620.0, 1.0, 0.6), n.noise(spot.at, 1900.0, 0.0)
-    wide, lumps = n.noise(spot.at, 2.3, 2.0), n.noise(spot.at, 120.0, 2.0, 0.6)
-    pressed = _pressed(n, spot, 0.012)
-    colour = n.mix(n.between(grain, 0.35, 0.68), (0.40, 0.27, 0.15, 1.0), (0.58, 0.43, 0.27, 1.0))
-    colour = n.mix(n.between(single, 0.60, 0.72, 0.0, 0.5), colour, (0.20, 0.12, 0.065, 1.0))
-    colour = n.mix(n.between(wide, 0.35, 0.7, 0.0, 0.35), colour, (0.38, 0.25, 0.135, 1.0))
-    colour = n.mix(n.math("MULTIPLY", pressed, 0.42), colour, (0.21, 0.128, 0.066, 1.0))
-    colour, rough, specular = _wetted(n, spot.wet, colour, 0.95, 0.12, 0.5)
-    flat = n.math("MULTIPLY_ADD", pressed, -0.6, 1.0)
-    height = n.sum((n.math("MULTIPLY", flat, 0.0009), grain), (n.math("MULTIPLY", flat, 0.0013), lumps))
-    return colour, rough, specular, 0.0, height
-
-
-def _snow(n, spot):
-    """White, light goes a little into it; pressed it is denser, smoother and bluer."""
-    grain, lumps = n.noise(spot.at, 520.0, 1.0, 0.6), n.noise(spot.at, 70.0, 3.0, 0.55)
-    crumbs, pressed, loose = n.noise(spot.at, 190.0, 1.0), _pressed(n, spot, 0.03), _loose(n, spot)
-    colour = n.mix(n.between(lumps, 0.3, 0.75, 0.0, 0.6), (0.86, 0.88, 0.91, 1.0), (0.79, 0.83, 0.88, 1.0))
-    colour = n.mix(n.math("MULTIPLY", pressed, 0.55), colour, (0.62, 0.71, 0.80, 1.0))
-    colour, rough, specular = _wetted(n, n.math("MULTIPLY", spot.wet, 0.3), colour, 0.75, 0.25)
-    rough = n.blend(pressed, rough, 0.48)
-    flat = n.math("MULTIPLY_ADD", pressed, -0.5, 1.0)
-    height = n.sum(
-        (n.math("MULTIPLY", flat, 0.0006), grain),
-        (n.math("MULTIPLY", flat, 0.0034), lumps),
-        (n.math("MULTIPLY", loose, 0.0035), crumbs),
-    )
-    return colour, rough, specular, n.math("MULTIPLY_ADD", pressed, -0.15, 0.45), height
-
-
-def _mud(n, spot):
-    """Damp lumps; a foot brings the water up, and leaves it smooth."""
-    lumps, fine = n.noise(spot.at, 38.0, 3.0, 0.5), n.noise(spot.at, 210.0, 2.0, 0.55)
-    wide, pressed, loose = n.noise(spot.at, 2.6, 2.0), _pressed(n, spot, 0.010), _loose(n, spot)
-    colour = n.mix(n.between(lumps, 0.35, 0.7), (0.088, 0.054, 0.031, 1.0), (0.150, 0.098, 0.059, 1.0))
-    colour = n.mix(n.between(fine, 0.55, 0.68, 0.0, 0.35), colour, (0.190, 0.130, 0.082, 1.0))
-    colour = n.mix(n.between(wide, 0.4, 0.68, 0.0, 0.5), colour, (0.062, 0.039, 0.023, 1.0))
-    wet = n.math("MAXIMUM", spot.wet, n.math("MULTIPLY", pressed, n.between(lumps, 0.25, 0.55, 0.7, 1.0)))
-    wet = n.math("MAXIMUM", wet, n.between(wide, 0.5, 0.68, 0.0, 0.6))
-    colour, rough, specular = _wetted(n, wet, colour, 0.62, 0.3, 0.27)
-    flat = n.math("MULTIPLY_ADD", pressed, -0.86, 1.0)
-    height = n.sum(
-        (n.math("MULTIPLY", flat, 0.0065), lumps),
-        (n.math("MULTIPLY", flat, 0.0016), fine),
-        (n.math("MULTIPLY", loose, 0.0040), lumps),
-    )
-    return colour, rough, specular, 0.0, height
-
-
-def _earth(n, spot):
-    """Crumbs of dark earth, trodden flat and darker where feet went."""
-    clods, crumbs = n.crumbs(spot.at, 42.0), n.crumbs(spot.at, 130.0)
-    lumps, grain = n.noise(spot.at, 30.0, 4.0, 0.6), n.noise(spot.at, 420.0, 3.0, 0.65)
-    wide, pressed, loose = n.noise(spot.at, 1.7, 2.0), _pressed(n, spot, 0.005), _loose(n, spot)
-    colour = n.mix(n.between(grain, 0.3, 0.7), (0.150, 0.108, 0.070, 1.0), (0.262, 0.196, 0.132, 1.0))
-    colour = n.mix(n.between(lumps, 0.35, 0.65, 0.45, 0.0), colour, (0.120, 0.084, 0.053, 1.0))
-    colour = n.mix(n.between(wide, 0.4, 0.65, 0.0, 0.4), colour, (0.150, 0.112, 0.074, 1.0))
-    colour = n.mix(n.math("MULTIPLY", loose, 0.5), colour, (0.120, 0.080, 0.048, 1.0))
-    colour = n.mix(n.math("MULTIPLY", pressed, 0.6), colour, (0.100, 0.068, 0.042, 1.0))
-    colour, rough, specular = _wetted(n, spot.wet, colour, 0.92, 0.1)
-    rough = n.blend(n.math("MULTIPLY", pressed, spot.wet), rough, 0.3)
-    flat = n.math("MULTIPLY_ADD", pressed, -0.8, 1.0)
-    height = n.sum(
-        (n.math("MULTIPLY", flat, 0.0060), lumps),
-        (n.math("MULTIPLY", flat, 0.0040), clods),
-        (n.math("MULTIPLY", flat, n.math("MULTIPLY_ADD", loose, 0.0018, 0.0020)), crumbs),
-        (n.math("MULTIPLY_ADD", flat, 0.0009, 0.0003), grain),
-    )
-    return colour, rough, specular, 0.0, height
-
-
-def _grass(n, spot):
-    """The floor of a meadow, seen between its stems: moss, dead leaves, low green."""
-    blades, leaves = n.noise(n.vector("MULTIPLY", spot.at, (1.0, 2.6, 1.0)), 130.0, 3.0, 0.65), n.noise(spot.at, 48.0)
-    wide = n.noise(spot.at, 1.3, 2.0)
-    colour = n.mix(n.between(blades, 0.34, 0.66), (0.020, 0.030, 0.009, 1.0), (0.072, 0.098, 0.028, 1.0))
-    colour = n.mix(n.between(leaves, 0.52, 0.64, 0.0, 0.75), colour, (0.150, 0.112, 0.058, 1.0))
-    colour = n.mix(n.between(wide, 0.4, 0.66, 0.0, 0.4), colour, (0.088, 0.092, 0.034, 1.0))
-    colour, rough, specular = _wetted(n, spot.wet, colour, 0.85, 0.2)
-    return colour, rough, specular, 0.0, n.sum((0.0075, blades), (0.0045, leaves))
-
-
-LOOKS = {  # name -> (what it is called, how it is made)
-    "SAND": ("Sand", _sand),
-    "SNOW": ("Snow", _snow),
-    "MUD": ("Mud", _mud),
-    "EARTH": ("Earth", _earth),
-    "GRASS": ("Grass Floor", _grass),
-}
 
 
 @dataclass(frozen=True)
@@ -227,7 +128,7 @@ def _leave(n, leave, values):
 
 def look(name):
     """The group of a look; inputs Position, Compression, Heap, Wetness, outputs OUTPUTS."""
-    label, make = LOOKS[name]
+    label, make = look_soils.LOOKS[name]
     mark = f"{name} {VERSION}"
     tree = _known(mark)
     if tree is not None:
@@ -240,7 +141,7 @@ def look(name):
         "Wetness": (number, 0.0, 0.0, 1.0),
     }
     tree, n, given, leave = _group(f"Desire Path {label}", mark, inputs, OUTPUTS)
-    results = make(n, Spot(*(given[each] for each in inputs)))
+    results = make(n, look_soils.Spot(*(given[each] for each in inputs)))
     _leave(n, leave, dict(zip(OUTPUTS, results)))
     return tree
 
@@ -265,7 +166,7 @@ def ground(recipe, name):
     baked = n.add("ShaderNodeSeparateColor", Color=_attribute(n, playback_tree.ATTRIBUTE, 0)).outputs
     compression = baked[2]
     heap = n.math("MAXIMUM", n.math("ADD", baked[0], compression), 0.0)
-    spot = Spot(place, compression, heap, given["Wetness"])
+    spot = look_soils.Spot(place, compression, heap, given["Wetness"])
     values = _trodden(n, recipe, spot, _mixed(n, recipe, spot))
     _flooded(n, values)
     values["Color"] = n.add(
@@ -278,7 +179,7 @@ def ground(recipe, name):
     high = n.math("MULTIPLY", high, level)
     values["Normal"] = n.add("ShaderNodeBump", Height=high, Distance=1.0, Strength=1.0).outputs[0]
     values["Shader"] = _shader(n, values, recipe.unit)
-    values["Pressed"], values["Loose"] = _pressed(n, spot, 0.01), _loose(n, spot)
+    values["Pressed"], values["Loose"] = look_soils.pressed_so(n, spot, 0.01), look_soils.loose_there(n, spot)
     values["Disturbed"] = n.between(n.math("MAXIMUM", compression, heap), 0.0003, 0.003)
     _leave(n, leave, values)
     return tree
@@ -302,7 +203,7 @@ def _mixed(n, recipe, spot):
         if recipe.floor == "plants":
             stands = n.between(_attribute(n, playback_tree.STRENGTH, 2), 0.02, 0.55)
         else:
-            stands = n.math("SUBTRACT", 1.0, _pressed(n, spot, 0.006))
+            stands = n.math("SUBTRACT", 1.0, look_soils.pressed_so(n, spot, 0.006))
         values = _over(n, _frayed(n, stands, fray), values, _look(n, "GRASS", 0.0, spot))
     return values
 

@@ -16,41 +16,28 @@ import numpy as np
 from ..errors import DesirePathError
 from ..files import disk
 from ..ground.detail import DETAILS, WALLS, with_clods
-from . import axes, compat, cover, looks, plants, playback, playback_tree, soils, surfaces
+from . import axes, compat, cover, look_soils, looks, plants, playback, playback_tree, soils, surfaces
 
-SOILS = {  # soil -> (look, how wet)
-    "dry-sand": ("SAND", 0.0),
-    "wet-sand": ("SAND", 0.85),
-    "mud": ("MUD", 0.35),
-    "wet-soil": ("EARTH", 0.7),
-    "dry-soil": ("EARTH", 0.0),
-}
-WORDS = (("snow", "SNOW"), ("sand", "SAND"), ("mud", "MUD"), ("clay", "MUD"))  # in other names; else it is earth
-WET = 0.7  # what has that word in its name
 UNTOUCHED = "desire_path_as_made"  # custom property of a material of ours: its name and nodes as we left them
-FLOORED = {"EARTH", "MUD"}  # what has a grass floor where plants grow
-
-
-def look_of(name):
-    """(look, wetness 0..1) of a soil by its name."""
-    known = SOILS.get(name)
-    if known is not None:
-        return known
-    found = next((each for word, each in WORDS if word in name), "EARTH")
-    return found, WET if "wet" in name and found != "SNOW" else 0.0
+FLOORED = {"EARTH", "PACKED", "MUD"}  # what has a grass floor where plants grow
 
 
 def detail_of(settings):
     """What a soil is like below a cell, a Detail."""
     name = _soil_name(settings)
-    look, wet = look_of(name)
-    usual = DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else look.lower()]
+    look, wet = look_soils.look_of(name)
+    usual = DETAILS.get(name) or DETAILS["wet-sand" if look == "SAND" and wet > 0.5 else _alike(look)]
     return with_clods(usual, soils.soil_of(settings).clod_size)
 
 
 def wall_of(settings):
     """How rough its high walls are, a deviation [m]."""
-    return WALLS.get(look_of(_soil_name(settings))[0].lower(), 0.0)
+    return WALLS.get(_alike(look_soils.look_of(_soil_name(settings))[0]), 0.0)
+
+
+def _alike(look):
+    """Whose grit and walls a look has."""
+    return {"CRUST": "snow", "PACKED": "packed-earth"}.get(look, look.lower())
 
 
 def _soil_name(settings):
@@ -63,9 +50,9 @@ def _soil_name(settings):
 def recipe(scene, obj, kind):
     """The looks.Recipe of a ground; kind: one of op_material.KINDS."""
     settings = obj.desire_path
-    base, painted = look_of(_soil_name(settings)), ()
+    base, painted = look_soils.look_of(_soil_name(settings)), ()
     if kind == "AUTO":
-        its = [(_share(each), *look_of(_soil_name(each))) for each in settings.painted]
+        its = [(_share(each), *look_soils.look_of(_soil_name(each))) for each in settings.painted]
         painted = tuple(dict.fromkeys(its))
     else:
         base = ("EARTH", base[1] if base[0] == "EARTH" else 0.0) if kind == "GRASS" else (kind, _wet_as(kind, base))
@@ -74,13 +61,13 @@ def recipe(scene, obj, kind):
         floor = "plants" if settings.plants else "trodden"
     unit = axes.unit_scale(scene)
     scale = tuple(float(np.float32(each * unit)) for each in obj.matrix_world.to_scale())
-    more = surfaces.looked(obj, lambda each: look_of(_soil_name(each))) if kind == "AUTO" else ()
+    more = surfaces.looked(obj, lambda each: look_soils.look_of(_soil_name(each))) if kind == "AUTO" else ()
     return looks.Recipe(base, painted, floor, scale, float(unit), *more)
 
 
 def _wet_as(kind, base):
     """How wet a look is that was asked for by name: as the soil has it, where that is the same."""
-    return base[1] if base[0] == kind else {"MUD": SOILS["mud"][1]}.get(kind, 0.0)
+    return base[1] if base[0] == kind else {"MUD": look_soils.SOILS["mud"][1]}.get(kind, 0.0)
 
 
 def _share(painted):
@@ -94,7 +81,7 @@ def is_ours(material):
 
 def _called(plan):
     there = [plan.base[0], *(each[1] for each in plan.painted + plan.seen)]
-    names = dict.fromkeys(looks.LOOKS[look][0] for look in there)
+    names = dict.fromkeys(look_soils.LOOKS[look][0] for look in there)
     if plan.floor:
         names["Grass"] = None
     wet = "Wet " if plan.base[0] in {"SAND", "EARTH"} and plan.base[1] > 0.5 else ""
@@ -133,7 +120,11 @@ def add(scene, obj, kind="AUTO", replace=False):
 def _guessed(obj, kind):
     """What to say of a look that goes by the name of a file which says nothing of it."""
     name = _soil_name(obj.desire_path)
-    if kind != "AUTO" or not obj.desire_path.soil_file or any(word in name for word, _ in (*WORDS, ("earth", ""))):
+    if (
+        kind != "AUTO"
+        or not obj.desire_path.soil_file
+        or any(word in name for word, _ in (*look_soils.WORDS, ("earth", "")))
+    ):
         return ""
     return f" The name of its soil file, '{name}', says no look: it is taken for earth; Kind chooses another."
 
@@ -210,8 +201,7 @@ def _new(plan, group):
     leave = n.add("ShaderNodeOutputMaterial", Surface=node.outputs["Shader"])
     leave.location = (300.0, 0.0)
     material[UNTOUCHED] = _print_of(material)
-    base = {"SAND": (0.45, 0.32, 0.19), "SNOW": (0.85, 0.88, 0.92), "MUD": (0.09, 0.057, 0.035)}
-    material.diffuse_color = (*base.get(plan.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
+    material.diffuse_color = (*look_soils.SOLID.get(plan.base[0], (0.09, 0.06, 0.036)), 1.0)  # in solid view
     return material
 
 
@@ -296,8 +286,8 @@ def _tidy():
 LIBRARY = "Desire Path"  # what the library is called in the Asset Browser
 FILE = "desire_path_looks.blend"
 ASSETS = (
-    *(looks.Recipe((look, 0.0)) for look in looks.LOOKS if look != "GRASS"),
-    looks.Recipe(SOILS["wet-sand"]),
+    *(looks.Recipe((look, 0.0)) for look in look_soils.LOOKS if look != "GRASS"),
+    looks.Recipe(look_soils.SOILS["wet-sand"]),
     looks.Recipe(("EARTH", 0.0), floor="trodden"),
 )
 

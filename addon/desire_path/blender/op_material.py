@@ -12,8 +12,10 @@ KINDS = (
     ("AUTO", "Of Its Soils", "What the ground's soils look like, the painted ones where they lie"),
     ("SAND", "Sand", "Grains, a little damp below the surface"),
     ("SNOW", "Snow", "White and a little translucent, bluer where it was pressed"),
-    ("MUD", "Mud", "Damp lumps that shine where they were pressed"),
+    ("CRUST", "Crusted Snow", "Snow under a plate of ice, which cracks around prints"),
+    ("MUD", "Mud", "Damp lumps, smooth and wet where feet went"),
     ("EARTH", "Earth", "Dark crumbs, darker and flat where feet went"),
+    ("PACKED", "Packed Earth", "Dusty and hard, with small stones, flaked and cracked around prints"),
     ("GRASS", "Grass Floor", "Moss and dead leaves between plants, bare earth where the cover is gone"),
 )
 
