@@ -9,14 +9,13 @@ import time
 
 import bpy
 import numpy as np
-from scenes import meshes, people
+from scenes import hands, meshes, people
 from test_bake import refused, scene
 from test_playback import shown
 
 from desire_path.bake import bake
 from desire_path.blender import op_bake, playback
 from desire_path.files import atomic_file
-from desire_path.ground import sim
 
 # ---- what is wrong is said in a sentence ------------------------------------------------------------
 
@@ -140,18 +139,8 @@ def test_names_that_are_taken(folder):
 
 def test_full_disk_keeps_what_was_baked(folder):
     ground, _ = scene(folder, frames=12)
-    real = sim.Film.write_frame
-
-    def full(self, path, moment):
-        if path is not None and path.endswith("trail_0007.exr"):
-            raise OSError(28, "No space left on device", path)
-        real(self, path, moment)
-
-    sim.Film.write_frame = full
-    try:
+    with hands.full_disk("trail_0007.exr"):
         refused(bpy.ops.object.desire_path_bake, "No space left", "room")
-    finally:
-        sim.Film.write_frame = real
     assert "frames 1 to 6 play" in ground.desire_path.missing
     sixth, _ = shown(ground, 6)
     later, _ = shown(ground, 12)

@@ -6,7 +6,7 @@ from scenes import meshes, people, rigified
 from test_place import ASIDE, UP, check_placed, heads, hill, is_undone, keys, on_hill, operator, scene_of
 from test_rig import add_bones, record, refused
 
-from desire_path.blender import compat, controls, op_place, posing, private, sample
+from desire_path.blender import bones, compat, controls, op_place, posing, private, sample
 from desire_path.blender import ground as ground_of
 from desire_path.ground.sim import Simulation
 from desire_path.loads import walker
@@ -65,7 +65,7 @@ def leads(obj, frames=tuple(range(1, 49))):
     scene = bpy.context.scene
     with private.private_scene(scene, obj) as own:
         world = np.array(sample.evaluated(own, obj, 1).matrix_world)
-        found = sample.rig(obj, sample.skeleton(obj, world, 1.0))
+        found = sample.rig(obj, bones.skeleton(obj, world, 1.0))
     led = controls.find(scene, obj, found.feet, found.feet, found.hips, list(frames))
     return {foot: {(each.job, each.bone) for each in every} for foot, every in led.items()}
 

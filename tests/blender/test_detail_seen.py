@@ -80,6 +80,18 @@ def test_walls_of_deep_prints_are_rough_and_cut_finer(folder):
     assert not compat.float_attribute(sand, playback_tree.WALL).any() and finer < 0.6 * shortest(sand)
 
 
+def test_walls_of_deep_prints_do_not_fold(folder):
+    ground = baked(folder, plane(), cell=0.005, soil="crust-snow", detail_size=0.002)
+    fine = seen(ground)
+    faces = len(fine.polygons)
+    up, area = np.zeros(3 * faces, np.float32), np.zeros(faces, np.float32)
+    fine.polygons.foreach_get("normal", up)
+    fine.polygons.foreach_get("area", area)
+    up, rough = up[2::3], compat.colour_attribute(fine, playback_tree.ATTRIBUTE)[:, 2] > playback_tree.CUT[1]
+    assert rough.sum() > 10000 and area[up < -0.1].sum() > 1e-4  # lumps overhang
+    assert area[up < -0.6].sum() < 2e-3 * area[up < 0.5].sum()  # and nothing is turned inside out
+
+
 def test_edges_of_deep_prints_stray_at_their_rim_alone(folder):
     ground = baked(folder, plane(), cell=0.01, soil="deep-snow", detail_size=0.008)
     away, pressed = strays(ground)

@@ -2,7 +2,9 @@
 
 import json
 import os
+import resource
 import shutil
+import signal
 import stat
 
 import bpy
@@ -261,3 +263,23 @@ def test_bakes_of_before_play_on_and_are_left_alone(folder):
     assert shown(ground, 12)[0].tobytes() == wanted.tobytes() != compat.positions(ground.data).tobytes()
     assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
     assert ground.desire_path.folder == "//desire_path/one/Ground" and files(old) == kept
+
+
+def test_a_save_that_fails_takes_no_bake_away(folder):
+    """A full disk, played by a limit on the size of files: Blender leaves paths as seen from where it did not get."""
+    ground, _ = saved(folder / "one.blend", frames=12)
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"} and ground.desire_path.bake_state == "FRESH"
+    (folder / "far" / "away").mkdir(parents=True)
+    away = str(folder / "far" / "away" / "two.blend")
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4_000, before[1]))
+    try:
+        refused(lambda: bpy.ops.wm.save_as_mainfile(filepath=away, compress=False), "")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    if hasattr(bpy.app.handlers, "save_post_fail"):
+        assert ground.desire_path.bake_state == "FRESH"
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "far" / "two.blend"))
+    assert ground.desire_path.bake_state == "FRESH"
+    assert opened(folder / "far" / "two.blend").desire_path.bake_state == "FRESH"

@@ -6,8 +6,10 @@ import bpy
 import numpy as np
 from scenes import meshes
 from test_bake import refused, scene
+from test_live import deepest
+from test_live import scene as followed
 
-from desire_path.blender import compat, layered
+from desire_path.blender import compat, layered, live
 from desire_path.blender import ground as grounds
 from desire_path.ground import maps
 
@@ -191,3 +193,53 @@ def test_mud_is_carried_onto_a_road_by_stamps_and_wheels_and_fades(folder):
         assert "surface_mud" in ground.data.attributes
         layer.soil_numbers.adhesion = 0.003
         assert settings.bake_state == "OUTDATED"
+
+
+def test_auto_update_follows_layers(folder):
+    ground, _ = followed(folder / "bake")
+    settings = ground.desire_path
+    settings.soil = "packed-earth"
+    assert live.update(bpy.context.scene) == []
+    depths = [deepest(ground)]
+    layer = laid(ground, "mud", 0.03)
+    for what, value in ((None, None), ("thickness", 0.06), ("soil", "fresh-snow")):
+        if what:
+            setattr(layer, what, value)
+        assert settings.bake_state == "OUTDATED"
+        assert live.update(bpy.context.scene) == [] and settings.bake_state == "FRESH", what
+        depths.append(deepest(ground))
+    assert (np.diff(depths) < -0.002).all(), depths
+    layer.group = ground.vertex_groups.new(name="puddle").name
+    assert live.update(bpy.context.scene) == [] and np.isclose(deepest(ground), depths[0], atol=1e-5), "it is nowhere"
+    ground.vertex_groups.clear()
+    assert "no vertex group 'puddle'" in live.update(bpy.context.scene)[0]
+    assert bpy.ops.object.desire_path_layer_remove() == {"FINISHED"}
+    assert live.update(bpy.context.scene) == [] and np.isclose(deepest(ground), depths[0], atol=1e-5)
+
+
+def test_an_override_keeps_layers_of_its_own_over_those_of_the_file(folder):
+    file, shot = str(folder / "library.blend"), str(folder / "shot.blend")
+    ground, _ = scene(folder, frames=16)
+    laid(ground, "mud", 0.05)
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(file, link=True) as (_, found):
+        found.objects = ["Ground", "Walker"]
+    for each in found.objects:
+        bpy.context.scene.collection.objects.link(each)
+    ground, walker = (each.override_create(remap_local_usages=True) for each in found.objects)
+    meshes.activate(walker)
+    assert bpy.ops.object.desire_path_walker_add() == {"FINISHED"}
+    meshes.activate(ground)
+    ground.desire_path.folder = str(folder / "bake")
+    ground.desire_path.layers[0].thickness = 0.1
+    assert bpy.ops.object.desire_path_layer_add() == {"FINISHED"}  # dry sand, 3 cm, on top
+    assert bpy.ops.object.desire_path_bake() == {"FINISHED"}
+    assert {"layer_1", "layer_2", "surface_mud"} <= set(planes(folder))
+    bpy.ops.wm.save_as_mainfile(filepath=shot)
+    for _ in range(2):
+        bpy.ops.wm.open_mainfile(filepath=shot)
+        settings = next(each for each in bpy.context.scene.objects if each.desire_path.is_ground).desire_path
+        lies = [(each.soil, round(each.thickness, 6)) for each in settings.layers]
+        assert lies == [("dry-sand", 0.03), ("mud", 0.1)] and settings.bake_state == "FRESH", settings.missing
+        bpy.ops.wm.save_mainfile()

@@ -35,6 +35,14 @@ def still():
     return people.biped()
 
 
+def test_a_pose_that_is_keyed_once_moves_nobody():
+    obj = still()
+    slide(obj, (7,))
+    assert moves.moves(obj) and not moves.has_motion(obj)
+    slide(obj, (9,))
+    assert moves.has_motion(obj)
+
+
 def frames(obj):
     return moves.frame_range(bpy.context.scene, obj)
 

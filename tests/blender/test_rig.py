@@ -7,7 +7,7 @@ import numpy as np
 from scenes import beasts, meshes, people
 
 import desire_path
-from desire_path.blender import panels, private, sample
+from desire_path.blender import bones, panels, private, sample
 from desire_path.errors import DesirePathError
 
 operator = bpy.ops.object
@@ -275,7 +275,7 @@ def test_mass_centre_bone():
     obj.desire_path.mass_center = "neck"
     found = record(obj).com
     with private.private_scene(bpy.context.scene, obj) as own:
-        neck = sample.motion(own, obj, ["neck"], list(range(1, 25)), 24.0, 1.0).matrix[:, 0, :3, 3]
+        neck = bones.motion(own, obj, ["neck"], list(range(1, 25)), 24.0, 1.0)[0].matrix[:, 0, :3, 3]
     np.testing.assert_allclose(found[0], neck, atol=1e-9)
     obj.desire_path.mass_center = "nowhere"
     refused(lambda: record(obj), "'nowhere'", "Walker")

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from scenes import meshes, people
 
-from desire_path.blender import axes, compat, moves, private, sample
+from desire_path.blender import axes, bones, compat, moves, private, sample
 from desire_path.errors import DesirePathError
 from desire_path.rig import rigs
 
@@ -39,7 +39,7 @@ def direct(obj, names, frames, subframe=0.0):
 
 def privately(obj, names, frames):
     with private.private_scene(bpy.context.scene, obj) as own:
-        return sample.motion(own, obj, names, frames, 24.0, 1.0)
+        return bones.motion(own, obj, names, frames, 24.0, 1.0)[0]
 
 
 def ids():
@@ -190,7 +190,7 @@ def test_skin_of_shoes():
             wanted = np.array(obj.matrix_world.inverted() @ mesh.matrix_world)
             rest = axes.points(wanted, [v.co for v in mesh.data.vertices], 1.2)
         world = axes.matrix(obj.matrix_world, obj.name)
-        feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
+        feet = rigs.detect(bones.skeleton(obj, world, 1.0)).feet
         found = sample.skin(bpy.context.scene, obj, feet, world, 1.0)
         assert set(found.weights) == {"foot.L"} and (found.weights["foot.L"] == 1.0).all()
         assert len(found.triangles) == 2 * 7 * 15
@@ -216,7 +216,7 @@ def test_toe_children_count_for_the_toe():
     mesh.vertex_groups["tip.L"].add(list(range(8 * 16)), 0.25, "REPLACE")
     mesh.vertex_groups.new(name="toe.L").add(list(range(8 * 16)), 0.75, "REPLACE")
     world = axes.matrix(obj.matrix_world, obj.name)
-    feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
+    feet = rigs.detect(bones.skeleton(obj, world, 1.0)).feet
     found = sample.skin(bpy.context.scene, obj, feet, world, 1.0)
     assert (found.weights["toe.L"] == 1.0).all() and "tip.L" not in found.weights
 
@@ -269,6 +269,18 @@ def test_refusals():
     obj.pose.bones["foot.R"].scale = (1, 1, 1)
     obj.location.x = float("nan")
     refused(lambda: sample.record(scene, obj, 1, 9), "NaN")
+
+
+def test_feet_that_are_chosen_by_hand():
+    """A bone is one foot, and legs that nobody named are those above it."""
+    obj = people.walk(people.biped())
+    for limb, bone in (("left", "foot.L"), ("right", "foot.L")):
+        each = obj.desire_path.feet.add()
+        each.limb, each.foot = limb, bone
+    refused(lambda: sample.record(bpy.context.scene, obj, 1, 9), "'foot.L'", "is both the left foot and the right foot")
+    obj.desire_path.feet[1].foot = "foot.R"
+    feet = sample.rig(obj, bones.skeleton(obj, np.eye(4), 1.0)).feet
+    assert [(foot.thigh, foot.shank) for foot in feet] == [("thigh.L", "shin.L"), ("thigh.R", "shin.R")]
 
 
 def test_no_feet():

@@ -5,7 +5,7 @@ from scenes import meshes, people
 from test_people import CMU, ground_under, walk_over
 from test_playback import shown
 
-from desire_path.blender import compat, sample
+from desire_path.blender import compat, inputs, sample
 from desire_path.errors import DesirePathError
 
 WALK = "cmu_12_01_walk.bvh"
@@ -142,3 +142,36 @@ def test_the_last_pose_may_be_held(folder):
         bpy.ops.object.desire_path_free()
     assert pressed[0].min() < -0.005
     assert abs(pressed[1] - pressed[0]).max() < 1e-3
+
+
+def test_who_grows_is_told():
+    walker = person()
+    assert not any("changes its size" in each for each in record(walker).warnings)
+    for frame, by in ((1, 1.0), (60, 1.5)):
+        walker.scale = (by, by, by)
+        walker.keyframe_insert("scale", frame=frame)
+    (told,) = [each for each in record(walker).warnings if "changes its size" in each]
+    assert "1.5 times as large at frame 60 as at frame 1" in told
+
+
+def test_another_gravity_than_ours_is_told(folder):
+    scene = bpy.context.scene
+    for gravity, units, told in (
+        (9.81, 1.0, None),
+        (9.7, 1.0, None),
+        (9.81, 0.01, None),
+        (981.0, 0.01, None),
+        (1.62, 1.0, "is 1.62 m/s2, but"),
+        (162.0, 0.01, "is 1.62 m/s2, but"),
+        (0.0, 1.0, "is 0 m/s2, but"),
+    ):
+        scene.gravity, scene.unit_settings.scale_length = (0.0, 0.0, -gravity), units
+        found = inputs.gravity_of(scene)
+        assert (told in found[0] and "0.17 times" in found[0] or gravity == 0.0) if told else not found, found
+    scene.use_gravity = False
+    assert not inputs.gravity_of(scene)
+    walker = person()
+    scene.use_gravity, scene.gravity, scene.unit_settings.scale_length = True, (0.0, 0.0, -1.62), 1.0
+    ground, _ = ground_under(walker, 0.0)
+    walk_over(walker, ground, folder)
+    assert "The gravity of the scene" in ground.desire_path.summary

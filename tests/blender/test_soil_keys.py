@@ -194,7 +194,7 @@ def test_painted_soils_in_strips_and_masses_with_drivers_count_at_each_time(fold
         assert ground.desire_path.bake_state == "FRESH"
 
 
-def test_layers_that_keys_or_drivers_lead_are_as_at_the_first_frame_and_told(folder):
+def test_layers_that_keys_or_drivers_lead_are_refused_where_they_change(folder):
     ground, armature = scene(folder, frames=16)
     bpy.ops.object.desire_path_layer_add()
     layer = ground.desire_path.layers[0]
@@ -204,9 +204,19 @@ def test_layers_that_keys_or_drivers_lead_are_as_at_the_first_frame_and_told(fol
         shown(frame)
         ((soil, thickness),) = soil_keys.laid(ground)
         assert np.isclose(thickness, 0.02) and np.isclose(soil.young_modulus, 1e5)
-        told = soil_keys.uncounted([ground], False)
-        assert told == [f"The keys on the layers of '{ground.name}' do not count: they are as at frame 1."]
-    depth(ground)
+        meshes.activate(ground)
+        try:
+            bpy.ops.object.desire_path_bake()
+        except RuntimeError as problem:
+            assert "change between frames 1 and 16, by keys or drivers" in str(problem)
+        else:
+            raise AssertionError("layers that change were taken")
+        assert not (folder / "bake").exists()
+    ground.animation_data.drivers[0].mute = True
+    (curve,) = compat.curves_played(ground.animation_data)
+    for point in curve.keyframe_points:
+        point.co.y = 0.02
+    depth(ground)  # keys that change nothing
     shown(15)
     assert ground.desire_path.bake_state == "FRESH"
 

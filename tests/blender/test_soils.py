@@ -40,7 +40,7 @@ def test_half_as_stiff_is_twice_as_deep(folder):
     settings.soil_numbers.young_modulus = 0.5 * SOILS["soil"].young_modulus
     assert settings.soil_numbers.changed and settings.bake_state == "OUTDATED"
     soft = baked(ground)
-    # a foot that rolls stands less long on each place, and one that slides pushes what is soft ahead of itself
+    # a foot that rolls stands less long on each place, and these skate at half their pace: what is soft is pushed ahead
     assert 1.45 < soft / firm < 2.2, (soft, firm)
     assert settings.bake_state == "FRESH", settings.missing
     settings.soil = "soil"  # chosen again: as it was

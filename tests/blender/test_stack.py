@@ -197,6 +197,45 @@ def test_modifiers_that_are_switched_are_as_renders_have_them_first():
         assert len(marks) == 1, way
 
 
+def test_shapes_that_a_scene_leads_or_that_come_and_go_are_told():
+    """Whatever frame is shown: a shape key and a modifier that follow a property of the scene, a bump of six frames."""
+    scene = bpy.context.scene
+    scene["tide"] = 0.0
+    for frame, value in ((1, 0.5), (86, 1.0)):
+        scene["tide"] = value
+        scene.keyframe_insert('["tide"]', frame=frame)
+
+    def lead(owner, name):
+        driver = owner.driver_add(name).driver
+        variable = driver.variables.new()
+        variable.targets[0].id_type, variable.targets[0].id = "SCENE", scene
+        variable.targets[0].data_path, driver.expression = '["tide"]', variable.name
+
+    for way in ("key", "modifier", "pulse"):
+        obj = meshes.grid(20, 20, 0.1, name=way)
+        if way == "modifier":
+            rise = obj.modifiers.new("Rise", "DISPLACE")
+            rise.direction, rise.mid_level = "Z", 0.0
+            lead(rise, "strength")
+        else:
+            obj.shape_key_add(name="Basis")
+            up = obj.shape_key_add(name="Up")
+            for k, point in enumerate(up.data):
+                point.co.z += 0.1 * (k % 2)
+            if way == "key":
+                lead(up, "value")
+            for frame, value in ((1, 0.0), (60, 0.0), (63, 1.0), (66, 0.0), (86, 0.0)) if way == "pulse" else ():
+                up.value = value
+                up.keyframe_insert("value", frame=frame)
+        surfaces = []
+        for shown_frame in (1, 40):
+            scene.frame_set(shown_frame)
+            surfaces.append(ground.read(scene, obj, 0.02, 1, 86))
+            assert any("changes between the frames" in each for each in surfaces[-1].warnings), (way, shown_frame)
+            assert scene.frame_current == shown_frame and len(scene.collection.objects) == len(scene.objects)
+        assert surfaces[0].mark == surfaces[1].mark, way
+
+
 def trodden(ground, folder, cell=0.02, frames=30):
     """A biped walks over a ground; returns its sentences."""
     meshes.activate(ground)

@@ -6,7 +6,7 @@ from scenes import meshes, people
 from test_sample import ids, shoe
 from test_stack import tree_of
 
-from desire_path.blender import axes, compat, sample, wiring, worn
+from desire_path.blender import axes, bones, compat, sample, wiring, worn
 from desire_path.rig import rigs
 
 LAST = 30
@@ -28,7 +28,7 @@ def skin_of(obj, frames=range(1, LAST + 1)):
     scene = bpy.context.scene
     scene.frame_set(1)
     world = axes.matrix(obj.matrix_world, obj.name)
-    feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
+    feet = rigs.detect(bones.skeleton(obj, world, 1.0)).feet
     before, frame = ids(), scene.frame_current
     found = sample.skin(scene, obj, feet, world, 1.0, frames)
     assert ids() == before and obj.data.pose_position == "POSE" and scene.frame_current == frame
@@ -261,6 +261,34 @@ def test_what_is_off_in_renders_is_not_worn():
     assert skin_of(obj) is None
 
 
+def test_soles_that_change_their_shape_are_told():
+    scene, obj = bpy.context.scene, walker()
+    mesh = weighted(obj)
+    mesh.shape_key_add(name="Basis")
+    thick = mesh.shape_key_add(name="Thick")
+    for point in thick.data:
+        point.co.z -= 0.03
+
+    def told():
+        return [each for each in sample.record(scene, obj, 1, 12).warnings if "changes its shape" in each]
+
+    for values, count in (((0.0, 0.0), 0), ((0.0, 1.0), 1)):
+        for frame, value in zip((1, 12), values):
+            thick.value = value
+            thick.keyframe_insert("value", frame=frame)
+        for shown in (1, 12):
+            scene.frame_set(shown)
+            assert len(told()) == count, (values, shown)
+    assert obj.name in told()[0] and "as at frame 1." in told()[0]
+    mesh.data.shape_keys.animation_data_clear()
+    bent = thick.driver_add("value").driver  # as bones bend, which in the rest pose they do not
+    asks = bent.variables.new()
+    asks.type, asks.targets[0].id, asks.targets[0].bone_target = "TRANSFORMS", obj, "foot.L"
+    asks.targets[0].transform_type, asks.targets[0].transform_space = "ROT_X", "LOCAL_SPACE"
+    bent.expression = f"min(abs({asks.name}), 1)"
+    assert not told()
+
+
 def test_what_stands_still_is_not_worn():
     obj = walker()
     mesh = meshes.grid(8, 16, 0.02, 0.03, -0.25, name="Mat")
@@ -304,7 +332,7 @@ def test_looking_leaves_nothing_to_be_done():
     bpy.app.handlers.depsgraph_update_post.append(handler)
     try:
         world = axes.matrix(obj.matrix_world, obj.name)
-        feet = rigs.detect(sample.skeleton(obj, world, 1.0)).feet
+        feet = rigs.detect(bones.skeleton(obj, world, 1.0)).feet
         assert sample.skin(bpy.context.scene, obj, feet, world, 1.0) is not None
         seen.clear()
         bpy.context.view_layer.update()

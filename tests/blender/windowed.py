@@ -9,20 +9,20 @@ import bpy
 from run import Skip
 
 
-def story(script, folder, width=900, height=900, seconds=600):
-    """Let Blender run a script (a path) to its end, with a folder for its pictures; raises with what it printed unless
-    it says `all seen`; returns that."""
+def story(script, folder, width=900, height=900, seconds=600, words=()):
+    """Let Blender run a script (a path) to its end, with a folder for its pictures, or other words; raises with what it
+    printed unless it says `all seen`; returns that."""
     if not bpy.app.binary_path:
         raise Skip("bpy as a module has no window")
     screen, display = _screen(width, height, folder)
     log = pathlib.Path(folder) / "log"
     size = [str(each) for each in (width, height)]
-    words = ["--factory-startup", "--enable-event-simulate", "-noaudio", "-p", "0", "0", *size]
-    words += ["--python-exit-code", "1", "--python", str(script), "--", str(folder)]
+    start = ["--factory-startup", "--enable-event-simulate", "-noaudio", "-p", "0", "0", *size]
+    start += ["--python-exit-code", "1", "--python", str(script), "--", *(words or [str(folder)])]
     try:
         with open(log, "w", encoding="utf-8") as out:
             child = subprocess.Popen(
-                [bpy.app.binary_path, *words],
+                [bpy.app.binary_path, *start],
                 env={
                     **os.environ,
                     "PATH": "/usr/bin:/bin",

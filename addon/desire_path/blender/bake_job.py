@@ -115,10 +115,10 @@ class Job:
         self.fresh = self.unless_fresh and all(map(_is_fresh, company.grounds, bake.parcels))
         if self.fresh:
             return
-        still = moves.still(company.walkers)
-        self.early += [*still, *bake.warnings]
+        odd = [*inputs.gravity_of(scene), *moves.still(company.walkers)]
+        self.early += [*odd, *bake.warnings]
         self.warnings += [
-            *still,
+            *odd,
             *bake.warnings,
         ]  # what is told of the walkers themselves comes before what follows from it
         for each in self.surfaces.values():

@@ -19,7 +19,7 @@ def walkers(scene, ground):
 def absent(scene, ground):
     """Sentences about walkers of a ground that renders leave out."""
     return [
-        f"'{obj.name}' is off in renders, by itself or by its collection, and leaves no prints."
+        f"'{obj.name}' is off in renders or in the view layer, by itself or by its collection, and leaves no prints."
         for obj in _chosen(scene, ground)
         if not worn.walks(scene, obj)
     ]

@@ -16,6 +16,10 @@ RELATIVE = (
 )
 
 
+CONTEXTS = "translation_context" in (bpy.props.BoolProperty.__doc__ or "")  # whether properties have one
+WORDS = "Desire Path"  # that of what objects remember: Blender's own catalogue has other words for some
+
+
 def positions(mesh):
     """Local vertex positions, float32 (n, 3)."""
     out = np.empty((len(mesh.vertices), 3), np.float32)
@@ -115,15 +119,20 @@ def _are_quads(mesh, corners):
     )
 
 
+def _values(attribute, key, *wide):
+    """All values of an attribute, float32 (n, *wide); key: what Blender calls one."""
+    out = np.empty((len(attribute.data), *wide), np.float32)
+    if len(out):
+        attribute.data.foreach_get(key, out.ravel())
+    return out
+
+
 def float_attribute(mesh, name):
     """Values of a float point attribute, float32 (n,), or None where there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.domain != "POINT" or attribute.data_type != "FLOAT":
         return None
-    out = np.empty(len(attribute.data), np.float32)
-    if len(out):
-        attribute.data.foreach_get("value", out)
-    return out
+    return _values(attribute, "value")
 
 
 def colour_attribute(mesh, name):
@@ -131,10 +140,7 @@ def colour_attribute(mesh, name):
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.data_type != "FLOAT_COLOR":
         return None
-    out = np.empty((len(attribute.data), 4), np.float32)
-    if len(out):
-        attribute.data.foreach_get("color", out.ravel())
-    return out
+    return _values(attribute, "color", 4)
 
 
 def vectors(mesh, name):
@@ -142,10 +148,7 @@ def vectors(mesh, name):
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.data_type != "FLOAT_VECTOR":
         return None
-    out = np.empty((len(attribute.data), 3), np.float32)
-    if len(out):
-        attribute.data.foreach_get("vector", out.ravel())
-    return out
+    return _values(attribute, "vector", 3)
 
 
 def geometry_tree(name, new_tree):
@@ -370,3 +373,17 @@ def bundled_modules():
         yield
     finally:
         sys.path[:] = path
+
+
+def prop(layout, group, name):
+    """Draw what a group of ours remembers, under its name in our words, also where properties have no context."""
+    layout.prop(group, name, text=group.bl_rna.properties[name].name, text_ctxt=WORDS)
+
+
+def held(keys):
+    """Which keys of a curve hold their value up to the next one."""
+    if keys.id_data.library is not None and bpy.app.version < (4, 5):  # there foreach_get may hand out what memory was
+        return np.array([key.interpolation == "CONSTANT" for key in keys], bool)
+    form = np.empty(len(keys), np.int32)
+    keys.foreach_get("interpolation", form)
+    return form == bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["CONSTANT"].value

@@ -25,7 +25,7 @@ TURNED = "desire_path_carried_turn"  # and the delta rotation before, Euler angl
 PLACED_FROM = "desire_path_placed_from"  # on an action of ours whose feet were placed: the one it was before
 DELTA = "delta_location"
 PAST = ", past the end of which its clip goes"  # of a curve
-SHARE = 0.3  # of its way a carried character may be off
+SHARE = 0.3  # of its displacement a carried character may be off
 _refused = {}  # why who was not carried, by name
 
 

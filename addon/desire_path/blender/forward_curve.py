@@ -18,7 +18,7 @@ TURN = "delta_rotation_euler"
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """A way over the floor, walked at an even speed."""
+    """A path over the floor, walked at an even speed."""
 
     line: np.ndarray  # places (n, 2) [m]
     start: np.ndarray  # where the clip begins (2,) [m]
@@ -59,7 +59,7 @@ class Course:
         return np.stack([np.interp(ahead, along, axis) for axis in self.line.T], axis=1) + over
 
     def moves(self, time):
-        """The matrices (T, 4, 4) that bring what stands in the clip to its place on the way [m]."""
+        """The matrices (T, 4, 4) that bring what stands in the clip to its place on the path [m]."""
         place, heading = self.at(time)
         out = np.tile(np.eye(4), (len(place), 1, 1))
         out[:, 0, 0] = out[:, 1, 1] = np.cos(heading)
@@ -80,7 +80,7 @@ def course(line, gait, velocity):
 
 
 def key(rig, curves, course, frames, seconds, scale, goes_on):
-    """Key delta location and delta rotation so that the object is on the way at frames; seconds: since the first one.
+    """Key delta location and delta rotation so that the object is on the path at frames; seconds: since the first one.
 
     scale: metres in a unit; raises where the object's rotation has no delta of its own kind
     """

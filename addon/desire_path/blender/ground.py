@@ -15,7 +15,7 @@ from ..ground import mesh as meshes
 from ..ground.sim import Ground, Simulation
 from ..placement import place
 from ..rig import slope
-from . import axes, compat, layered, playback, playback_tree, sample, stack, wiring
+from . import axes, compat, layered, moves, playback, playback_tree, sample, stack, wiring
 from . import soils as soils_of
 
 STEEP = 0.02  # faces that rise more than this cosine count as ground, about 89 degrees
@@ -23,6 +23,7 @@ NEAR = 0.6  # ground this far around the feet is read: soles, rims and smoothed 
 LEVEL = 0.01  # ground that rises less than this is level [m]
 FINE = 4.5  # cells between the points of a mesh whose points matter to where cells lie
 SOON = 0.38  # the shape is looked at after this share of the frames, too: what comes and goes is seen
+LOOKS = 8  # and at so many of the frames at which it is keyed
 BLOCK = 1 << 16  # faces looked at in one go, at most
 WEIGHT = "desire_path_kind_{}"  # attributes of the private copy
 
@@ -74,7 +75,7 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         later = []
         bare = not copy.modifiers and obj.data.shape_keys is None and obj.data.animation_data is None
         if frame_end is not None and not bare:  # a bare mesh keeps its shape
-            for frame in (frame_start + round(SOON * (frame_end - frame_start)), frame_end):
+            for frame in _looks(scene, obj, frame_start, frame_end):
                 stack.let_led(scene, own, copy, obj, frame, again=True)
                 found = sample.evaluated(own, copy, frame)
                 later.append(compat.positions(found.data))
@@ -123,6 +124,13 @@ def read(scene, obj, cell, frame_start, frame_end=None, *, box=None):
         meshes.mark(there),
         finer,
     )
+
+
+def _looks(scene, obj, first, last):
+    """Frames at which the shape of a ground is compared with that at the first one: it may come and go between."""
+    keyed = moves.keys(scene, obj, first, last)
+    some = np.linspace(0, len(keyed) - 1, min(len(keyed), LOOKS)).round().astype(int)
+    return sorted({first + round(SOON * (last - first)), last, *(keyed[k] for k in some)})
 
 
 def _name_taken(obj):

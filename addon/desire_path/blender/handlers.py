@@ -33,6 +33,7 @@ from . import (
 )
 
 _unsaved = False  # whether the file that is being saved never was before
+_played = {}  # name of an image of a bake -> its path, while a file is being saved
 
 
 def refresh(scene, obj, play=show.play):
@@ -63,6 +64,7 @@ def refresh(scene, obj, play=show.play):
 
 @persistent
 def before_load(*_):
+    _played.clear()
     trash.empty()
 
 
@@ -105,17 +107,34 @@ def after_undo(*_):
 @persistent
 def before_save(*_):
     global _unsaved
+    after_failed_save()  # of a Blender that does not tell of it
     _unsaved = not bpy.data.filepath
     for obj in bpy.data.objects:
         if obj.type == "MESH" and obj.library is None and obj.desire_path.is_ground and home.is_own(obj):
             home.sign(obj)
     overrides.keep()
+    for obj in bpy.data.objects:
+        ours = playback.modifier(obj) if obj.type == "MESH" and obj.library is None else None
+        if ours is not None:
+            there = playback.images(ours.node_group).values()
+            _played.update((image.name, image.filepath) for image in there if image.library is None)
+
+
+@persistent
+def after_failed_save(*_):
+    """Blender has written the paths of images as seen from where the file was to go, and leaves them so."""
+    for name, path in _played.items():
+        image = bpy.data.images.get(name)
+        if image is not None and image.filepath != path:
+            image.filepath = path
+    _played.clear()
 
 
 @persistent
 def after_save(*_):
     """A file saved for the first time: what was baked before moves beside it, and the file is to say so."""
     global _unsaved
+    _played.clear()
     first, _unsaved = _unsaved and bool(bpy.data.filepath), False
     if bpy.data.filepath:
         trash.empty()
@@ -147,6 +166,8 @@ def register():
     atexit.register(trash.empty)
     bpy.app.handlers.save_pre.append(before_save)
     bpy.app.handlers.save_post.append(after_save)
+    if hasattr(bpy.app.handlers, "save_post_fail"):  # 3.5 and later
+        bpy.app.handlers.save_post_fail.append(after_failed_save)
     bpy.app.handlers.undo_post.append(after_undo)
     bpy.app.handlers.redo_post.append(after_undo)
 
@@ -158,6 +179,8 @@ def unregister():
     watch.unregister()
     bpy.app.handlers.redo_post.remove(after_undo)
     bpy.app.handlers.undo_post.remove(after_undo)
+    if hasattr(bpy.app.handlers, "save_post_fail"):
+        bpy.app.handlers.save_post_fail.remove(after_failed_save)
     bpy.app.handlers.save_post.remove(after_save)
     bpy.app.handlers.save_pre.remove(before_save)
     bpy.app.handlers.load_pre.remove(before_load)

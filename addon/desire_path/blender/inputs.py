@@ -18,6 +18,7 @@ from ..ground import maps, mesh, parcels
 from ..ground.options import SimulationOptions
 from ..ground.parcels import Parcel
 from ..ground.sim import Simulation, check_cell
+from ..loads.force import GRAVITY
 from ..rig import sole
 from . import axes, bodies, ground, layered, paths, plants, playback, pressed, recordings, soil_keys, sprays, trodden
 
@@ -72,7 +73,7 @@ def taken(scene, company, folders, **more):
     for each, (path, owner) in zip(grounds, folders):
         grown = plants.plantings(scene, each)
         own = soil_keys.of_ground(scene, each, first, first if on_paths else end)
-        layered.check_keys(each, own)
+        layered.check_keys(scene, each, own, first, first if on_paths else end)
         parcels.append(
             Parcel(
                 pressed.start(each, found[each.name].ground),
@@ -215,6 +216,20 @@ def check(grounds, walkers):
                     f"The walk crosses '{one.name}' and '{other.name}', which need the same {words}: "
                     "choose one for both."
                 )
+
+
+def gravity_of(scene):
+    """A sentence where somebody gave the scene another gravity than prints are pressed by."""
+    if not scene.use_gravity:
+        return []
+    typed = float(np.linalg.norm(scene.gravity))
+    drawn = typed * axes.unit_scale(scene)
+    if min(abs(typed - GRAVITY), abs(drawn - GRAVITY)) < 0.05 * GRAVITY:  # in small units many leave it as it is
+        return []
+    return [
+        f"The gravity of the scene is {drawn:.3g} m/s2, but prints are pressed by the Earth's, {GRAVITY:g} m/s2: for "
+        f"the prints of that weight give walkers {drawn / GRAVITY:.2g} times their mass."
+    ]
 
 
 def warnings_of(company):

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..errors import DesirePathError
-from . import axes, compat, controls, footing, posing, private, sample
+from . import axes, bones, compat, controls, footing, posing, private, sample
 
 PLACED = "desire_path_placed_from"  # on a placed action: name of the one it was made from
 BALANCED = "desire_path_balanced_from"  # on an action in which a body leans: the same
@@ -21,7 +21,7 @@ def plan(scene, armature, gait, placed, frames, lean=None):
     """A footing.Plan of an armature whose walk is to be another; lean: see there."""
     with private.private_scene(scene, armature) as own:
         world = axes.matrix(sample.evaluated(own, armature, frames[0]).matrix_world, armature.name)
-        found = sample.rig(armature, sample.skeleton(armature, world, axes.unit_scale(scene)))
+        found = sample.rig(armature, bones.skeleton(armature, world, axes.unit_scale(scene)))
     return footing.Plan(scene, armature, found, gait, placed, frames, lean)
 
 

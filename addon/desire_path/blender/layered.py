@@ -53,9 +53,14 @@ def above(obj):
     return sum(layer.thickness for layer, _ in of_ground(obj))
 
 
-def check_keys(obj, own):
-    """Refuse soils that change over time below layers. own: those of the ground"""
+def check_keys(scene, obj, own, first, last):
+    """Refuse soils that change over time below layers, and layers that do. own: soils of the ground"""
     if obj.desire_path.layers and any(isinstance(each, SoilKeys) for each in own):
         raise DesirePathError(
             f"The soil of '{obj.name}' has keys, which ground in layers does not take: remove the keys, or the layers."
+        )
+    if obj.desire_path.layers and soil_keys.change_layers(scene, obj, first, last):
+        raise DesirePathError(
+            f"The layers of '{obj.name}' change between frames {first} and {last}, by keys or drivers, which layers do "
+            "not take: remove or mute these."
         )

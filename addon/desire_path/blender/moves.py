@@ -11,6 +11,7 @@ import math
 import re
 
 import bpy
+import numpy as np
 
 from . import auto, clock, compat, playback, playback_tree, private, seams
 
@@ -62,17 +63,27 @@ def frame_range(scene, obj):
     return scene.frame_start, scene.frame_end
 
 
-def besides(scene, walkers):
-    """Where walkers are looked at besides whole frames: keys begin and end between two, or another take begins."""
-    ends, found = set(), list[float]()
+def besides(scene, walkers, first=None, last=None):
+    """Where walkers are looked at besides whole frames, from one to another, else those of the scene: keys lie between
+    two, or another take begins."""
+    ends, found, keys, alone = set(), list[float](), [], len(walkers) == 1
     slow = clock.stretch(scene)
+    first = scene.frame_start if first is None else first
+    last = scene.frame_end if last is None else last
     for each in walkers:
-        movers = _Movers(each, (scene.frame_start / slow, scene.frame_end / slow))
+        movers = _Movers(each, (first / slow, last / slow))
         spans = [(first * slow, last * slow) for first, last in movers.spans]
         if spans and not movers.goes_on:
             ends |= {min(span[0] for span in spans), max(span[1] for span in spans)}
         found += [seam * slow for seam in movers.seams]
-    return seams.Besides(tuple(sorted(ends)), tuple(seams.spread(found, clock.frame_rate(scene))))
+        keys += movers.keys
+        ground = each.desire_path.ground
+        alone = alone and not movers.unkeyed and (ground is None or not moves(ground))
+    keys = seams.together(keys, slow, first, last)
+    # where no key is looked at nobody asks what else moves: such a recording is what it is without any besides
+    return seams.Besides(
+        tuple(sorted(ends)), tuple(seams.spread(found, clock.frame_rate(scene))), keys, alone and bool(keys)
+    )
 
 
 def moves(obj):
@@ -92,6 +103,13 @@ def scene_of(scene, obj):
 def asks_scene(*objects):
     """Whether properties of a scene move any of some objects; None is none."""
     return any(_Movers(each).asks_scene for each in objects if each is not None)
+
+
+def keys(scene, obj, first, last):
+    """Scene frames, between two, at which what moves or shapes an object is keyed; rising."""
+    slow = clock.stretch(scene)
+    found = np.concatenate([np.empty(0), *_Movers(obj, (first / slow, last / slow)).keys]) * slow
+    return np.unique(found[(first < found) & (found < last)]).tolist()
 
 
 def movers(obj):
@@ -168,13 +186,18 @@ def follow(scene, ground, walkers):
 class _Movers:
     """Everything that moves an object.
 
-    spans: first and last frame of keys and strips, in the animation's time; goes_on: does anything else move it?
+    spans: first and last frame of keys and strips, in the animation's time; goes_on: is it moved beyond them, by keys
+    that are cycled or go on straight, or, unkeyed, by anything else?
     asks_scene: do properties of a scene move it?
-    seams: where it may go on elsewhere at once, of cycles those in `within`; seen: all datablocks that take part in it
+    seams: where it may go on elsewhere at once, of cycles those in `within`; keys: frames of
+    all keys, likewise; neither is looked for where no `within` is given
+    seen: all datablocks that take part in it
     """
 
-    def __init__(self, obj, within=(0.0, 0.0)):
-        self.spans, self.goes_on, self.tied, self.seams, self.within = [], False, [], [], within
+    def __init__(self, obj, within=None):
+        self.spans, self.tied, self.within = [], [], within
+        self.cycled = self.unkeyed = False
+        self.seams, self.keys = [], []
         self.asks_scene = False
         own = _chain(obj)
         for each in own:
@@ -187,12 +210,16 @@ class _Movers:
                     seen.add(other)
                     before = len(self.spans)
                     self._look(other)
-                    self.goes_on |= len(self.spans) > before
+                    self.unkeyed |= len(self.spans) > before
+
+    @property
+    def goes_on(self):
+        return self.cycled or self.unkeyed
 
     def _look(self, each):
         """How an ID moves by itself, and to what it is tied."""
         if isinstance(each, bpy.types.CacheFile):
-            self.goes_on = True
+            self.unkeyed = True
         animation = getattr(each, "animation_data", None)
         if animation is not None:
             self._animation(animation)
@@ -201,7 +228,7 @@ class _Movers:
             self.tied += [keys] if keys is not None else []
             return
         body = each.rigid_body
-        self.goes_on |= body is not None and body.type == "ACTIVE" and not body.kinematic
+        self.unkeyed |= body is not None and body.type == "ACTIVE" and not body.kinematic
         held = list(each.constraints)
         for bone in each.pose.bones if each.pose is not None else ():
             held += bone.constraints
@@ -218,7 +245,7 @@ class _Movers:
         if tree is not None and playback_tree.TAG in tree:
             return  # a bake of ours
         self.tied += _tied(modifier)
-        self.goes_on |= by_time(modifier)
+        self.unkeyed |= by_time(modifier)
         if tree is not None:
             self.tied.append(tree)
 
@@ -229,9 +256,11 @@ class _Movers:
             if not track.mute or solo:
                 heard = [strip for strip in track.strips if not strip.mute]
                 self.spans += [(strip.frame_start, strip.frame_end) for strip in heard]
-                self.seams += [seam for strip in heard for seam in seams.of_strip(strip)]
+                if self.within is not None:
+                    self.seams += [seam for strip in heard for seam in seams.of_strip(strip)]
+                    self.keys += [keys for strip in heard for keys in seams.keys_of_strip(strip)]
         if animation.use_tweak_mode:
-            self.goes_on = True  # a strip's action is edited, which may have outgrown its strip
+            self.unkeyed = True  # a strip's action is edited, which may have outgrown its strip
         elif animation.action is not None and not solo:
             self._action(animation)
         for curve in animation.drivers:
@@ -256,16 +285,20 @@ class _Movers:
             self.spans += [
                 tuple(curve.range()) for curve in curves if len(curve.keyframe_points) or len(curve.sampled_points)
             ]
-        self.goes_on |= any(_goes_on(curve) for curve in curves)
-        self.seams += [seam for curve in curves for seam in seams.of_curve(curve, *self.within)]
+        self.cycled |= any(_goes_on(curve) for curve in curves)
+        self.unkeyed |= any(not each.mute and each.type != "CYCLES" for curve in curves for each in curve.modifiers)
+        self.unkeyed |= any(len(curve.sampled_points) for curve in curves)
+        if self.within is not None:
+            self.seams += [seam for curve in curves for seam in seams.of_curve(curve, *self.within)]
+            self.keys += seams.keys_of_curves(curves, *self.within)
 
     def _driver(self, driver):
         names = {variable.name for variable in driver.variables}
         if driver.type == "SCRIPTED":
             words = re.findall(r"(?<![.\w])[A-Za-z_]\w*", driver.expression)
-            self.goes_on |= any(word not in names and word not in TIMELESS for word in words)
+            self.unkeyed |= any(word not in names and word not in TIMELESS for word in words)
         asks = compat.asks_scene(driver)
-        self.goes_on, self.asks_scene = self.goes_on or asks, self.asks_scene or asks
+        self.unkeyed, self.asks_scene = self.unkeyed or asks, self.asks_scene or asks
         for variable in driver.variables:
             for target in variable.targets if variable.type != "CONTEXT_PROP" else ():
                 if target.id is not None and not isinstance(target.id, bpy.types.Scene):
@@ -282,9 +315,9 @@ def _chain(obj):
 
 
 def _tied(thing):
-    """Objects, and files of motion, that a constraint, one of its targets or a modifier points at."""
+    """Objects, files of motion and textures that a constraint, one of its targets or a modifier points at."""
     found = [getattr(thing, each.identifier) for each in thing.bl_rna.properties if each.type == "POINTER"]
-    return [each for each in found if isinstance(each, (bpy.types.Object, bpy.types.CacheFile))]
+    return [each for each in found if isinstance(each, (bpy.types.Object, bpy.types.CacheFile, bpy.types.Texture))]
 
 
 def _is_keyed(animation, constraint):

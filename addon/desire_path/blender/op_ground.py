@@ -6,7 +6,7 @@ from ..errors import DesirePathError
 from . import auto
 from .late import home
 from .messages import tell
-from .ops import Refusal, active
+from .ops import Refusal, active, take_off
 from .translations import say
 
 
@@ -84,9 +84,7 @@ class OBJECT_OT_desire_path_paint_remove(bpy.types.Operator):
         return active(cls, context, {"MESH"}, "a ground") and bool(context.object.desire_path.painted)
 
     def execute(self, context):
-        settings = context.object.desire_path
-        settings.painted.remove(settings.painted_index)
-        settings.painted_index = max(0, min(settings.painted_index, len(settings.painted) - 1))
+        take_off(context.object.desire_path, "painted")
         return {"FINISHED"}
 
 

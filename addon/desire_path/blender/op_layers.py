@@ -5,8 +5,9 @@ from bpy.props import EnumProperty
 
 from ..errors import DesirePathError
 from . import soils
+from .compat import WORDS
 from .late import layers
-from .ops import Refusal, active
+from .ops import Refusal, active, chosen_in, take_off
 from .panels import _column, _Ground, in_both
 
 UP, DOWN = "UP", "DOWN"
@@ -48,12 +49,11 @@ class OBJECT_OT_desire_path_layer_remove(_OfLayers, bpy.types.Operator):
 
     bl_idname = "object.desire_path_layer_remove"
     bl_label = "Remove Layer"
+    bl_translation_context = WORDS
 
     def work(self, context):
-        settings = context.object.desire_path
         _chosen(context.object)
-        settings.layers.remove(settings.layers_index)
-        settings.layers_index = max(0, min(settings.layers_index, len(settings.layers) - 1))
+        take_off(context.object.desire_path, "layers")
         return {"FINISHED"}
 
 
@@ -62,6 +62,7 @@ class OBJECT_OT_desire_path_layer_move(_OfLayers, bpy.types.Operator):
 
     bl_idname = "object.desire_path_layer_move"
     bl_label = "Move Layer"
+    bl_translation_context = WORDS
 
     direction: EnumProperty(
         name="Direction",
@@ -84,8 +85,7 @@ def _chosen(obj):
     settings = obj.desire_path
     if not settings.layers:
         raise DesirePathError(f"Nothing lies on '{obj.name}' yet: add a layer first.")
-    settings.layers_index = max(0, min(settings.layers_index, len(settings.layers) - 1))
-    return settings.layers_index
+    return chosen_in(settings, "layers")
 
 
 # ---- panels ----------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from ..errors import DesirePathError
 from . import props_parts
 from .late import bake_job, picture, plants, replant, show
 from .messages import tell
-from .ops import Refusal
+from .ops import Refusal, chosen_in, take_off
 
 
 class _OfGround(Refusal):
@@ -96,7 +96,7 @@ class OBJECT_OT_desire_path_grass_add(_OfGround, bpy.types.Operator):
         obj = context.object
         context.view_layer.update()
         settings = obj.desire_path
-        each = settings.plants[min(settings.plants_index, len(settings.plants) - 1)]
+        each = settings.plants[chosen_in(settings, "plants")]
         if plants.shown(each) is not None:
             raise DesirePathError(f"The {each.kind} on '{obj.name}' is shown already, by '{each.grass.name}'.")
         plants.forget(each)
@@ -135,10 +135,8 @@ class OBJECT_OT_desire_path_plants_remove(_OfGround, bpy.types.Operator):
 
     def work(self, context):
         settings = context.object.desire_path
-        number = min(settings.plants_index, len(settings.plants) - 1)
-        plants.forget(settings.plants[number])
-        settings.plants.remove(number)
-        settings.plants_index = max(0, min(number, len(settings.plants) - 1))
+        plants.forget(settings.plants[chosen_in(settings, "plants")])
+        take_off(settings, "plants")
         return {"FINISHED"}
 
 

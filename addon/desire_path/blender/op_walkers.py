@@ -5,7 +5,7 @@ from bpy.props import IntProperty, StringProperty
 
 from ..errors import DesirePathError
 from .chosen import WALKERS, grounds, walkers
-from .late import axes, bodies, ground, moves, plants, rigs, sample, show, sim
+from .late import axes, bodies, bones, ground, moves, plants, rigs, sample, show, sim
 from .messages import tell
 from .ops import AsksFirst, Refusal, active
 
@@ -13,7 +13,7 @@ from .ops import AsksFirst, Refusal, active
 def detect(scene, obj, keep=False):
     """Find an armature's feet and hips and fill its slots; `keep` those that were chosen and fit."""
     settings = obj.desire_path
-    shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
+    shape = bones.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
     if keep and settings.feet:
         try:
             return sample.rig(obj, shape)
@@ -122,7 +122,7 @@ def _means(scene, obj):
         return "with all that hangs on its bones", ()
     if obj.type == "ARMATURE":
         found = detect(scene, obj, keep=not obj.desire_path.is_walker)
-        shape = sample.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
+        shape = bones.skeleton(obj, axes.matrix(obj.matrix_world, obj.name), axes.unit_scale(scene))
         odd = sample.odd_size(obj, shape, found)
         return "with " + ", ".join(foot.foot for foot in found.feet), tuple(found.warnings) + (odd[:1] if odd else ())
     bound = [each.object for each in obj.modifiers if each.type == "ARMATURE" and each.object is not None]

@@ -94,3 +94,16 @@ def active(cls, context, kind, words, *, changed=True):
         )
         return False
     return True
+
+
+def chosen_in(settings, items):
+    """The place of the item that is chosen in a list of a ground (`painted`, `layers` or `plants`), 0 without any."""
+    place = max(0, min(getattr(settings, f"{items}_index"), len(getattr(settings, items)) - 1))
+    setattr(settings, f"{items}_index", place)
+    return place
+
+
+def take_off(settings, items):
+    """Remove the chosen item of such a list; the one after it is chosen, or the last."""
+    getattr(settings, items).remove(chosen_in(settings, items))
+    chosen_in(settings, items)

@@ -5,6 +5,7 @@ import bpy
 from ..errors import DesirePathError
 from . import arrival, panel_lists, soil_presets, soils
 from .chosen import grounds, walkers
+from .compat import WORDS, prop
 from .late import bake_job, forward, json, plants, sentences, state
 
 BOXED = 3  # letters that a box takes of a line
@@ -40,13 +41,13 @@ def draw_ground(layout, context, obj):
         layout.operator("object.desire_path_walker_add", icon="ADD")
         return
     column = _column(layout)
-    column.prop(settings, "soil")
+    prop(column, settings, "soil")
     column.operator("object.desire_path_material_add", icon="MATERIAL")
-    column.prop(settings, "cell_length")
+    prop(column, settings, "cell_length")
     frames = column.column(align=True)
-    frames.prop(settings, "frame_start", text="Frame Start")
-    frames.prop(settings, "frame_end")
-    column.prop(settings, "folder")
+    frames.prop(settings, "frame_start", text="Frame Start", text_ctxt=WORDS)
+    prop(frames, settings, "frame_end")
+    prop(column, settings, "folder")
     if settings.folder_auto and not bpy.data.filepath:
         _lines(column, "Temporary: save the file to keep it", "INFO", _letters(context))
 
@@ -75,7 +76,7 @@ def draw_ground(layout, context, obj):
         row = layout.row()
         row.scale_y = 1.4
         row.operator("object.desire_path_bake", icon="RENDER_ANIMATION")
-        _column(layout).prop(settings, "auto_update")
+        prop(_column(layout), settings, "auto_update")
         layout.operator("object.desire_path_press", icon="BRUSH_DATA")
         if len(grounds(context.scene)) > 1:
             layout.operator("wm.desire_path_bake_all")
@@ -170,16 +171,16 @@ def draw_plants(layout, context, obj):
     each = settings.plants[min(settings.plants_index, len(settings.plants) - 1)]
     layout.template_icon_view(each, "pictured", show_labels=True, scale=4.0)
     column = _column(layout)
-    column.prop(each, "kind")
-    column.prop(each, "density", text="Per m²")
+    prop(column, each, "kind")
+    column.prop(each, "density", text="Per m²", text_ctxt=WORDS)
     column.prop_search(each, "density_group", obj, "vertex_groups", text="Only In")
-    column.prop(each, "seed")
+    prop(column, each, "seed")
     picked = layout.column(align=True)  # a line of its own: its buttons need the panel's width
     picked.label(text="Density Image")
     picked.template_ID(each, "density_image", new="image.new", open="image.open")
     column = _column(layout)
     if plants.shown(each) is not None:
-        column.prop(each, "grass", text="Shown By")
+        column.prop(each, "grass", text="Shown By", text_ctxt=WORDS)
     else:
         column.operator("object.desire_path_grass_add", icon="OUTLINER_OB_CURVES")
     column.operator("object.desire_path_plants_update", icon="FILE_REFRESH")
@@ -190,25 +191,25 @@ def draw_plants(layout, context, obj):
     except DesirePathError as problem:
         text = str(problem)
     _lines(layout, text, "INFO", _letters(context))
-    _column(layout).prop(settings, "plant_mesh")
+    prop(_column(layout), settings, "plant_mesh")
 
 
 def draw_output(layout, obj):
     settings = obj.desire_path
     column = _column(layout)
-    column.prop(settings, "refine")
+    prop(column, settings, "refine")
     if settings.refine:
-        column.prop(settings, "refine_length")
-        column.prop(settings, "refine_pixels", text="Pixels")
-        column.prop(settings, "detail_size", text="Detail [m]")
-    column.prop(settings, "attributes")
-    column.prop(settings, "vertex_group")
+        prop(column, settings, "refine_length")
+        column.prop(settings, "refine_pixels", text="Pixels", text_ctxt=WORDS)
+        column.prop(settings, "detail_size", text="Detail [m]", text_ctxt=WORDS)
+    prop(column, settings, "attributes")
+    prop(column, settings, "vertex_group")
     for name in ("law", "heap", "spray"):
-        column.prop(settings, name)
+        prop(column, settings, name)
     if settings.spray != "NONE":
-        column.prop(settings, "spray_amount")
+        prop(column, settings, "spray_amount")
     for name in ("threads", "memory_limit"):
-        column.prop(settings, name)
+        prop(column, settings, name)
 
 
 def weight(settings):
@@ -227,37 +228,37 @@ def draw_walker(layout, context, obj):
         layout.operator("object.desire_path_record", icon="REC")
         return
     column = _column(layout)
-    column.prop(settings, "ground")
-    column.prop(settings, "weight")
+    prop(column, settings, "ground")
+    prop(column, settings, "weight")
     if not settings.mass:
         known = weight(settings).capitalize() if settings.estimated_mass else "Estimated when recorded"
         _lines(column, known, "INFO", _letters(context))
     legged = obj.type == "ARMATURE"
     if legged:
-        column.prop(settings, "sole")
+        prop(column, settings, "sole")
         if settings.sole is None:
-            column.prop(settings, "tread")
-        column.prop(settings, "path")
+            prop(column, settings, "tread")
+        prop(column, settings, "path")
         if settings.path is None:
-            column.prop(settings, "carried")
+            prop(column, settings, "carried")
             if forward.refused(obj):
                 _lines(column, forward.refused(obj), "ERROR", _letters(context))
     if legged and settings.path is not None:
         walked = column.column(align=True)
-        walked.prop(settings, "passes")
-        walked.prop(settings, "scatter")
-        walked.prop(settings, "path_seed")
-        walked.prop(settings, "back_and_forth")
+        prop(walked, settings, "passes")
+        prop(walked, settings, "scatter")
+        prop(walked, settings, "path_seed")
+        prop(walked, settings, "back_and_forth")
     if legged:
-        column.prop(settings, "limbs")
-        column.prop(settings, "wade")
-    column.prop(settings, "contact_law")
-    column.prop(settings, "load_model")
-    column.prop(settings, "subframes")
-    row = layout.row(align=True)
+        prop(column, settings, "limbs")
+        prop(column, settings, "wade")
+    prop(column, settings, "contact_law")
+    prop(column, settings, "load_model")
+    prop(column, settings, "subframes")
+    buttons = layout.column(align=True)
     if legged:
-        row.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
-    row.operator("object.desire_path_record", text="Record", icon="REC")
+        buttons.operator("object.desire_path_rig_detect", icon="FILE_REFRESH")
+    buttons.operator("object.desire_path_record", text="Record", icon="REC")
     if legged:
         layout.label(text="Feet on Slopes")
         feet = layout.column(align=True)
@@ -270,7 +271,7 @@ def draw_walker(layout, context, obj):
         row.operator("object.desire_path_slow_down", icon="PREVIEW_RANGE").remove = False
         row.operator("object.desire_path_slow_down", text="", icon="X").remove = True
         column = _column(layout)
-        column.prop(settings, "place_feet")
+        prop(column, settings, "place_feet")
     layout.operator("object.desire_path_remove", text="Remove Walker", icon="X")
 
 
@@ -291,7 +292,7 @@ def in_both(panel, name="", parent=None):
 def _at(place, panel, name, parent):
     base = f"{place}_PT_desire_path"
     below = {} if parent is None else {"bl_parent_id": base + parent}
-    fields = {**_PLACES[place], **below, "__module__": panel.__module__}
+    fields = {**_PLACES[place], **below, "__module__": panel.__module__, "bl_translation_context": WORDS}
     return type(base + name, (panel, bpy.types.Panel), fields)
 
 

@@ -1,5 +1,6 @@
 """panels_track.py - what leaves a track along a curve, and the buttons that press it."""
 
+from .compat import prop
 from .panels import _column, in_both
 
 STAMPED = ("spacing", "width", "first", "size", "scatter")
@@ -13,22 +14,22 @@ def draw(layout, obj):
         row.operator("object.desire_path_track_add", icon="MOD_DYNAMICPAINT")
         return
     column = _column(layout)
-    column.prop(obj.desire_path, "ground")
-    column.prop(settings, "kind")
+    prop(column, obj.desire_path, "ground")
+    prop(column, settings, "kind")
     if settings.kind == "WHEEL":
-        column.prop(settings, "vehicle")
+        prop(column, settings, "vehicle")
         if settings.vehicle == "none":
             for name in ("radius", "tyre_width", "tread", "gauge"):
-                column.prop(settings, name)
+                prop(column, settings, name)
     else:
         _draw_stamp(column, settings)
     column = _column(layout)
-    column.prop(settings, "depth")
+    prop(column, settings, "depth")
     weight = column.row()
     weight.active = not settings.depth
-    weight.prop(settings, "weight")
-    column.prop(settings, "speed")
-    column.prop(settings, "end_speed")
+    prop(weight, settings, "weight")
+    prop(column, settings, "speed")
+    prop(column, settings, "end_speed")
     row = layout.row()
     row.scale_y = 1.4
     row.operator("object.desire_path_tracks_press", icon="BRUSH_DATA")
@@ -37,17 +38,17 @@ def draw(layout, obj):
 
 def _draw_stamp(column, settings):
     if settings.kind == "SOLE":
-        column.prop(settings, "sole")
+        prop(column, settings, "sole")
     else:
-        column.prop(settings, "stamp")
+        prop(column, settings, "stamp")
         if settings.stamp == "image":
             column.template_ID(settings, "image", open="image.open")
-            column.prop(settings, "image_length")
-            column.prop(settings, "image_height")
+            prop(column, settings, "image_length")
+            prop(column, settings, "image_height")
     for name in STAMPED:
-        column.prop(settings, name)
+        prop(column, settings, name)
     if settings.scatter:
-        column.prop(settings, "seed")
+        prop(column, settings, "seed")
 
 
 class _Track:

@@ -21,12 +21,13 @@ GROUPS = ("plant_strength", "compression")  # vertex groups, when asked for
 DETAIL = "desire_path_detail"  # vector attribute of a copy: heights of veins, crumbs and grit [m]
 STRAY = "desire_path_stray"  # vector attribute of a copy: how far prints are seen aside, which heap shows crumbs [m]
 WALL = "desire_path_wall"  # float attribute of a copy: deviation by which walls are rough [m]
+ACROSS = "desire_path_across"  # vector attribute of a copy: which way walls are rough, across them in the end
 LEVEL = "desire_path_level"  # float attribute of a copy: height of standing water over the ground as it lay [m], < 0
 WATER = "desire_path_water"  # float attribute on the evaluated mesh: how deep water stands [m]
 MOVED = "desire_path_moved"  # float attribute where other soils are seen in the end: how much was moved by then [m]
 PROGRESS = "desire_path_progress"  # float attribute on the evaluated mesh: how much of that was moved by now, 0..1
 DRY = -1e6  # height of the water where there is none [m]
-BARE = (0.0005, 0.004)  # veins show where less loose soil lies [m]
+BARE = (0.3, 0.9)  # veins show where less soil has slid back than was pressed, by that
 SUCKED = (0.002, 0.012)  # where it was pressed so deep [m]
 DISTURBED = (0.0003, 0.003)  # grit shows where soil was pressed or heaped so far [m]
 SMOOTH = 0.35  # share of it that is left where a sole pressed
@@ -79,12 +80,7 @@ def create(obj, shown, playing, into=None):
     index, place, copy = playing.index, playing.place, playing.copy
     smooth, standing = playing.smooth, playing.standing
     world, scale = playing.world, playing.scale
-    if into is None:
-        tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
-        strengths.declare(tree)
-    else:
-        tree = into
-        tree.nodes.clear()
+    tree = _opened(obj, into)
     wire = wiring.Wiring(tree)
     entry = given = wire.add("NodeGroupInput")
     if place is not None and place.realise:  # the ground is made of instances, which cannot be pressed
@@ -121,10 +117,7 @@ def create(obj, shown, playing, into=None):
     level, ground = wire.named(LEVEL) if copy is not None and LEVEL in copy.data.attributes else None, rise
     if level is not None:  # flat, whatever lies below it
         rise = wire.math("MAXIMUM", rise, level)
-    if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
-        offset = wire.add("ShaderNodeCombineXYZ", Z=rise).outputs[0]
-    else:
-        offset = wire.vector("MULTIPLY", tuple(up), rise)
+    offset = _along(wire, up, rise)
     if compat.socket(stored.inputs, "Selection") is not None:
         some = {}  # what is not stored reads zero
     geometry = stored.outputs[0]
@@ -155,6 +148,23 @@ def create(obj, shown, playing, into=None):
     return tree
 
 
+def _opened(obj, into):
+    """A tree for an object without nodes: `into`, or a new one."""
+    if into is not None:
+        into.nodes.clear()
+        return into
+    tree = compat.geometry_tree(MODIFIER + " " + obj.name, bpy.data.node_groups.new)
+    strengths.declare(tree)
+    return tree
+
+
+def _along(wire, up, rise):
+    """What lies `rise` in the direction `up` (3,)."""
+    if up[0] == 0.0 and up[1] == 0.0 and up[2] == 1.0:
+        return wire.add("ShaderNodeCombineXYZ", Z=rise).outputs[0]
+    return wire.vector("MULTIPLY", tuple(up), rise)
+
+
 def _stored(wire, entry, color, scattered, some):
     """The node after which points, and instances that are scattered, have a color where they are `some`."""
     for domain in ("INSTANCE", "POINT")[not scattered :]:
@@ -172,7 +182,8 @@ def _stored(wire, entry, color, scattered, some):
 def _detail(wire, baked, threshold):
     """How high what is finer than a cell stands, by how far soil was pressed and heaped at that frame. MODEL 8.3"""
     heap = wire.math("MAXIMUM", wire.math("ADD", baked[0], baked[2]), 0.0)
-    bare = wire.between(heap, *BARE, 1.0, 0.0)
+    bare = wire.math("DIVIDE", heap, wire.math("MAXIMUM", baked[2], SUCKED[0]))
+    bare = wire.between(bare, *BARE, 1.0, 0.0)
     veins = wire.math("MULTIPLY", wire.between(baked[2], *SUCKED), bare)
     crumbs = wire.between(heap, threshold, wire.math("MULTIPLY", threshold, 2.0))
     grit = wire.math("MAXIMUM", wire.between(heap, *DISTURBED), wire.between(baked[2], *DISTURBED, 0.0, SMOOTH))
@@ -188,8 +199,8 @@ def _progress(wire, change, compression):
 
 
 def _rough(wire, geometry, share, metres):
-    """Points of deep prints are moved across their surface by noise of the place where they stand, so that walls are
-    lumpy: what is moved along it would fold. MODEL 8.3
+    """Points of deep prints are moved across their walls by noise of the place where they stand, so that walls are
+    lumpy: what is moved along a surface would fold, and so would what each follows a normal of its own. MODEL 8.3
 
     share: of it that shows; metres: in a unit of the object along its axes
     """
@@ -197,11 +208,13 @@ def _rough(wire, geometry, share, metres):
     noise = wire.add(
         "ShaderNodeTexNoise", {"noise_dimensions": "3D"}, Vector=here, Scale=1.0 / LUMP, Detail=1.0, Roughness=0.6
     )
-    away = wire.math("SUBTRACT", noise.outputs[0], 0.5)
+    # as high as it comes near 0, and no higher than 4/3 deviations: peaks would fold
+    away = wire.between(noise.outputs[0], 0.5 - 2.0 * NOISE, 0.5 + 2.0 * NOISE, -4.0 / 3.0 * NOISE, 4.0 / 3.0 * NOISE)
     high = wire.named(WALL)
     away = wire.math("MULTIPLY", away, wire.math("MULTIPLY", high, share))
-    across = wire.add("GeometryNodeInputNormal").outputs[0]
-    across = wire.vector("MULTIPLY", across, tuple(np.array((1.0, 1.0, EVEN)) / (NOISE * metres)))
+    across = wire.vector(
+        "MULTIPLY", wire.named(ACROSS, "FLOAT_VECTOR"), tuple(np.array((1.0, 1.0, EVEN)) / (NOISE * metres))
+    )
     deep = wire.math("GREATER_THAN", wire.math("MULTIPLY", high, share), 0.0)
     offset = wire.vector("SCALE", across, scale=away)
     return wire.add("GeometryNodeSetPosition", Geometry=geometry, Selection=deep, Offset=offset).outputs[0]

@@ -7,7 +7,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..errors import DesirePathError
-from . import axes, moves, ride, sample
+from . import axes, bones, moves, ride, sample
 
 LOCKED = 1e-4  # a locked channel may change by rounding only
 ROTATIONS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -37,7 +37,7 @@ def look(scene, armature, names, frames):
     ):
         for frame in frames:
             seen = sample.evaluated(own, armature, frame)
-            world.append(sample.world_of(seen, carry))
+            world.append(bones.world_of(seen, carry))
             for name in names:
                 pose[name].append(np.array(seen.pose.bones[name].matrix, np.float64))
     return Bones(frames, np.array(world), {name: np.array(each) for name, each in pose.items()}, axes.unit_scale(scene))

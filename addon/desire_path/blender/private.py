@@ -40,6 +40,17 @@ def shown_scene(scene):
 
 
 @contextmanager
+def visiting(scene, obj):
+    """The scene itself, likewise, with an object in it that is in none."""
+    scene.collection.objects.link(obj)
+    try:
+        with shown_scene(scene):
+            yield scene
+    finally:
+        scene.collection.objects.unlink(obj)
+
+
+@contextmanager
 def following(scene, obj):
     """(scene, object) to look at for how properties of an object follow its keys, strips and drivers: a bare copy in a
     scene of its own, or itself in `scene` where its drivers ask that."""

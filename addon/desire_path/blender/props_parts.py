@@ -4,6 +4,7 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import compat, pictured, soils, units
+from .compat import WORDS
 from .late import kinds, picture, replant, state
 
 SPRAYS = (
@@ -19,10 +20,12 @@ def _foot_by_hand(self, _context):
 
 
 def overridable(group):
-    """Let a library override of an object change what it remembers, and keep it."""
+    """Let a library override of an object change what it remembers, and keep it; its words are ours."""
     for each in group.__annotations__.values():
         inserts = {"USE_INSERTION"} if each.function is CollectionProperty else set()
         each.keywords["override"] = {"LIBRARY_OVERRIDABLE"} | inserts
+        if compat.CONTEXTS:
+            each.keywords["translation_context"] = WORDS
     return group
 
 

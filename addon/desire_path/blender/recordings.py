@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DesirePathError
 from ..motion.gait import Gait
-from . import axes, clock, compat, moves, sample, seams, worn
+from . import axes, bones, clock, compat, moves, sample, seams, worn
 
 _kept = None  # recordings by key, while there is one to keep them
 
@@ -67,7 +67,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, besides=seams.
 def gaits(scene, walkers, frame_start, frame_end):
     """sample.gaits() without a land, of what is kept."""
     samples = sample.samples_of(scene, walkers)
-    besides = moves.besides(scene, walkers)
+    besides = moves.besides(scene, walkers, frame_start, frame_end)
     found = [record(scene, each, frame_start, frame_end, samples, besides) for each in walkers]
     return Gait.join(seams.closed(found, besides))
 
@@ -77,7 +77,7 @@ def _depends(scene, armature):
     settings, feet = armature.desire_path, None
     sample.poses(armature)
     if armature.type == "ARMATURE" and settings.limbs != "ALL":
-        shape = sample.skeleton(armature, axes.matrix(armature.matrix_world, armature.name), axes.unit_scale(scene))
+        shape = bones.skeleton(armature, axes.matrix(armature.matrix_world, armature.name), axes.unit_scale(scene))
         feet = repr(sample.rig(armature, shape))
     hanging = worn.hanging(scene, armature)
     movers = set().union(*(moves.movers(each) for each in (armature, *hanging)))

@@ -17,9 +17,9 @@ from ..errors import DesirePathError
 from ..motion.gait import AUTO, Gait
 from ..rig import body, limbs, mass, rigs, solid
 from ..rig.foot import FootShape
-from . import axes, clock, compat, moves, physics, playback, ride, seams, soil_keys
-from .private import check_library, evaluated, looked_at, off_in_renders
-from .worn import hanging, owners, skin, tread
+from . import axes, bones, clock, compat, moves, physics, playback, ride, seams, soil_keys, worn_changes
+from .private import evaluated, looked_at, off_in_renders
+from .worn import skin, tread
 
 FARTHEST = 1e6  # a body that is farther from the origin was lost [m]
 USUAL_MASS = 75.0  # of who carves and has none, which nobody asks for [kg]
@@ -45,57 +45,6 @@ def still(obj):
 
 
 # ---- the armature ----------------------------------------------------------------------------------
-
-
-def skeleton(armature, world, scale):
-    """The rest pose in the armature's own axes, as large as the object's scale makes it.
-
-    world: the object's matrix (4, 4)
-    """
-    bones = list(armature.data.bones)
-    if not bones:
-        check_library(armature)
-        raise DesirePathError(f"'{armature.name}' has no bones: choose the armature that walks.")
-    number = {bone.name: i for i, bone in enumerate(bones)}
-    size = axes.sizes(world)
-    local = np.array([bone.matrix_local for bone in bones], np.float64)
-    parents = [number[bone.parent.name] if bone.parent else -1 for bone in bones]
-    along = (size @ local)[:, :3, 1] * np.array([bone.length for bone in bones])[:, None]
-    return body.Skeleton(
-        tuple(number),
-        np.array(parents, np.int32),
-        axes.rigid(size @ local, scale),
-        np.linalg.norm(along, axis=1) * scale,
-        bool(np.linalg.det(size[:3, :3]) < 0.0),
-    )
-
-
-def world_of(found, carry=None):
-    """An evaluated object's matrix, as seen from the ground it rides on."""
-    world = np.array(found.matrix_world, np.float64)
-    return world if carry is None else carry.now() @ world
-
-
-def motion(own, armature, names, frames, rate, scale, carry=None):
-    """World matrices of bones at frames (floats), scale taken out; time counts from the first. carry: a Ride."""
-    out = np.empty((len(frames), len(names), 4, 4))
-    for t, frame in enumerate(frames):
-        pose = evaluated(own, armature, frame)
-        world = world_of(pose, carry)
-        bones = pose.pose.bones
-        for b, name in enumerate(names):
-            out[t, b] = world @ np.array(bones[name].matrix, np.float64)
-    bad = ~(np.abs(out) < axes.FAR).all(axis=(2, 3))
-    bad |= ~(np.linalg.norm(out[..., :3, :3], axis=2) > 0.0).all(axis=2)
-    if bad.any():
-        t, b = np.argwhere(bad)[0]
-        raise DesirePathError(
-            f"Bone '{names[b]}' of '{armature.name}' has no usable transform at frame "
-            f"{frames[t]:g} (NaN, infinite, or scaled to nothing): look at its keys and drivers "
-            "there."
-        )
-    time = (np.asarray(frames, np.float64) - frames[0]) / rate
-    return body.Motion(time, tuple(names), axes.rigid(out, scale))
 
 
 def rig(armature, shape):
@@ -189,19 +138,6 @@ def weight(armature, shape, found, volume=None):
     return kilograms, (mass.sentence(armature.name, kilograms, height),)
 
 
-def worn_at_times(scene, armature, feet, frames):
-    """Sentences about what moves with the feet and is off in renders at some frames of the walk only."""
-    owner, notes = owners(armature, feet), []
-    for obj in hanging(scene, armature):
-        moves = obj.parent_bone in owner or any(group.name in owner for group in obj.vertex_groups)
-        if moves and len(set(off_in_renders(scene, obj, frames))) > 1:
-            notes.append(
-                f"'{obj.name}' is off in renders at some of the frames: '{armature.name}' wears it at all of them "
-                "where it walks."
-            )
-    return tuple(notes)
-
-
 # ---- all of it --------------------------------------------------------------------------------------
 
 
@@ -253,7 +189,7 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None, bes
         ride.on(own, settings.ground, frame_start) as carry,
     ):
         world = axes.matrix(evaluated(own, armature, frame_start).matrix_world, armature.name)
-        shape = skeleton(armature, world, scale)
+        shape = bones.skeleton(armature, world, scale)
         if settings.limbs == "ALL":
             return soil_keys.weighed(scene, _limbs(scene, armature, shape, own, carry, frames), armature, frame_end)
         found, volume = rig(armature, shape), None
@@ -265,9 +201,9 @@ def record(scene, armature, frame_start, frame_end, samples=None, land=None, bes
                 found = found if settings.mass_center else replace(found, segments=full[0])
                 volume = full[1]
         kilograms, notes = weight(armature, shape, found, volume)
-        moved = motion(own, armature, found.bones, frames, rate, scale, carry)
+        moved, grown = bones.motion(own, armature, found.bones, frames, rate, scale, carry)
     worn = skin(scene, armature, found.feet, world, scale, frames)
-    notes += worn_at_times(scene, armature, found.feet, frames)
+    notes += grown + worn_changes.sentences(scene, armature, found.feet, world, scale, frames, worn)
     gait = body.gait_from_bones(
         shape,
         moved,
@@ -300,9 +236,10 @@ def _limbs(scene, armature, shape, own, carry, frames):
             f"No mesh hangs on the bones of '{armature.name}', so that its limbs have nothing to press with: bind one "
             "to it, or let its feet press."
         )
+    moved, grown = bones.motion(own, armature, names, frames, rate, scale, carry)
     gait = limbs.gait_from_limbs(
         shape,
-        motion(own, armature, names, frames, rate, scale, carry),
+        moved,
         worn,
         mass=axes.typed(settings.mass) if settings.mass > 0.0 else USUAL_MASS,
         frame_rate=rate,
@@ -310,7 +247,7 @@ def _limbs(scene, armature, shape, own, carry, frames):
     )
     rode = carry.notes(gait.com[0], frames, rate, scale) if carry is not None else ()
     law = "carve" if settings.contact_law == "AUTO" else settings.contact_law.lower()
-    return replace(gait, warnings=gait.warnings + tuple(rode), contact_law=(law,))
+    return replace(gait, warnings=gait.warnings + grown + tuple(rode), contact_law=(law,))
 
 
 def _solid(scene, obj, frames, samples, rate, scale):
@@ -322,7 +259,7 @@ def _solid(scene, obj, frames, samples, rate, scale):
         ride.on(own, obj.desire_path.ground, frames[0]) as carry,
     ):
         (first, faces), (last, _) = (_shape(evaluated(own, obj, frame)) for frame in (frames[0], frames[-1]))
-        placed = np.array([world_of(evaluated(own, obj, frame), carry) for frame in frames])
+        placed = np.array([bones.world_of(evaluated(own, obj, frame), carry) for frame in frames])
         if physics.simulated(obj):
             placed = physics.fallen(scene, obj, frames, samples)
             placed = placed if carry is None else np.array(carry.back) @ placed
@@ -390,6 +327,6 @@ def _solid_weight(obj, vertices, faces):
 def gaits(scene, walkers, frame_start, frame_end, land=None):
     """All walkers of a ground as one recording; land: a Simulation of it, for feet that lie on slopes."""
     samples = samples_of(scene, walkers)
-    besides = moves.besides(scene, walkers)
+    besides = moves.besides(scene, walkers, frame_start, frame_end)
     found = [record(scene, each, frame_start, frame_end, samples, land, besides) for each in walkers]
     return Gait.join(seams.closed(found, besides))

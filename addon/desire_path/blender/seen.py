@@ -5,10 +5,12 @@ soils of the ground, shares of those that are painted --> attributes of the copy
 
 import numpy as np
 
+from ..ground import mesh as meshes
 from ..ground.detail import SHOWN, details
 from . import axes, compat, cover, materials, playback_tree, soils
 
 STRAYS = slice(SHOWN.index("stray_x"), SHOWN.index("stray_y") + 1)
+ROUND = 0.4 * playback_tree.LUMP  # how far around normals of walls are meant [m]
 STEEP = 2.0  # slope of walls that are cut finer than the rest
 
 
@@ -60,6 +62,24 @@ def write(carrier, surface, obj, cut, index, planes):
         mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", values.ravel())
     rough = sum(share * wall for share, wall in zip(shares, walls))
     mesh.attributes.new(playback_tree.WALL, "FLOAT", "POINT").data.foreach_set("value", rough.astype(np.float32))
+    if rough.any():
+        across = mesh.attributes.new(playback_tree.ACROSS, "FLOAT_VECTOR", "POINT")
+        across.data.foreach_set("vector", _across(carrier, surface, index, planes).ravel())
+
+
+def _across(carrier, surface, index, planes):
+    """Normals of the prints at the points of a copy in the end, in the space of the object, as planes would have them
+    that lean on the ground all around: those of two points side by side differ little."""
+    rise, place = {"rise": planes["heap"] - planes["compression"]}, surface.world[:3] * surface.scale
+    at = compat.positions(carrier.data)
+    slopes = np.zeros((len(at), 3))
+    for axis, (aside, ahead) in enumerate(((ROUND, 0.0), (0.0, ROUND))):
+        for side in (-1.0, 1.0):
+            corner = index.x0 - side * aside, index.y0 - side * ahead
+            slopes[:, axis] -= side * meshes.at_points(rise, index.cell, corner, at, place)["rise"] / (2.0 * ROUND)
+    slopes[:, 2] = 1.0
+    normals = slopes @ surface.world[:3, :3]
+    return (normals / np.linalg.norm(normals, axis=1)[:, None]).astype(np.float32)
 
 
 def _lumpy(carrier, surface, index, planes):

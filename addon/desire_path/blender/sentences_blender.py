@@ -48,8 +48,9 @@ GERMAN = {
     "'{}' walks on '{}' in the scene '{}' only: link it to '{}', or bake there.": (
         "'{}' geht auf '{}' nur in der Szene '{}': mit '{}' verknüpfen, oder dort backen."
     ),
-    "'{}' is off in renders, by itself or by its collection, and leaves no prints.": (
-        "'{}' ist beim Rendern aus, selbst oder durch seine Sammlung, und hinterlässt keine Abdrücke."
+    "'{}' is off in renders or in the view layer, by itself or by its collection, and leaves no prints.": (
+        "'{}' ist beim Rendern oder in der Ansichtsebene aus, selbst oder durch seine Sammlung, und hinterlässt keine "
+        "Abdrücke."
     ),
     # ---- blender/cover.py
     "The mesh of '{}' is linked from another file: no attributes were written.": (
@@ -181,6 +182,11 @@ GERMAN = {
     ),
     "The walk crosses '{}' and '{}', which need the same {}: choose one for both.": (
         "Der Gang überquert '{}' und '{}', die dasselbe brauchen ({}): für beide eines wählen."
+    ),
+    "The gravity of the scene is {} m/s2, but prints are pressed by the Earth's, {} m/s2: for the prints of that "
+    "weight give walkers {} times their mass.": (
+        "Die Schwerkraft der Szene ist {} m/s2, Abdrücke aber drückt die der Erde, {} m/s2: für Abdrücke jenes "
+        "Gewichts den Läufern das {}-fache ihrer Masse geben."
     ),
     "The walk crosses '{}' with cells of {} m and {} with larger ones: all are pressed in cells of {} m.": (
         "Der Gang überquert '{}' mit Zellen von {} m und {} mit größeren: alle werden in Zellen von {} m gedrückt."

@@ -77,9 +77,9 @@ GERMAN = {
     "{} cannot be written ({}): make room or choose another folder.": (
         "{} lässt sich nicht schreiben ({}): Platz schaffen oder einen anderen Ordner wählen."
     ),
-    "{} cannot be written ({}): give up to 64 maps of at most 2^28 cells, and maps and notes with different names "
+    "{} cannot be written ({}): give up to 64 maps of at most 2^32 cells, and maps and notes with different names "
     "of 1 to 29 characters that OpenEXR does not use itself.": (
-        "{} lässt sich nicht schreiben ({}): bis zu 64 Karten von höchstens 2^28 Zellen geben, und Karten und "
+        "{} lässt sich nicht schreiben ({}): bis zu 64 Karten von höchstens 2^32 Zellen geben, und Karten und "
         "Notizen mit verschiedenen Namen von 1 bis 29 Zeichen, die OpenEXR nicht selbst verwendet."
     ),
     "{} cannot be opened: check that the file is there and may be read.": (
@@ -374,8 +374,10 @@ GERMAN = {
     "The soil of '{}' has keys, which ground in layers does not take: remove the keys, or the layers.": (
         "Die Bodenart von '{}' hat Keys, die Boden in Schichten nicht nimmt: die Keys entfernen, oder die Schichten."
     ),
-    "The keys on the layers of '{}' do not count: they are as at frame {}.": (
-        "Die Keys auf den Schichten von '{}' zählen nicht: sie sind wie in Bild {}."
+    "The layers of '{}' change between frames {} and {}, by keys or drivers, which layers do not take: remove or mute "
+    "these.": (
+        "Die Schichten von '{}' ändern sich zwischen den Bildern {} und {}, durch Keys oder Treiber, die Schichten "
+        "nicht nehmen: diese entfernen oder stumm schalten."
     ),
     "'{}' has {} layers, which is the most: remove one first.": (
         "'{}' hat {} Schichten, mehr gehen nicht: zuerst eine entfernen."

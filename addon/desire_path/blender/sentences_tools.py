@@ -310,6 +310,11 @@ GERMAN = {
     "'{}' weighs {} kg: give it a mass above 0, or 0 to have it estimated.": (
         "'{}' wiegt {} kg: ihm eine Masse über 0 geben, oder 0, um sie schätzen zu lassen."
     ),
+    "What '{}' wears at its feet changes its shape between the frames, by keys, drivers or a modifier: its soles are "
+    "as at frame {}.": (
+        "Was '{}' an den Füßen trägt, ändert seine Form zwischen den Bildern, durch Keys, Treiber oder einen Modifier: "
+        "die Sohlen sind wie in Bild {}."
+    ),
     "'{}' is off in renders at some of the frames: '{}' wears it at all of them where it walks.": (
         "'{}' ist in manchen der Bilder beim Rendern aus: '{}' trägt es in allen, in denen es geht."
     ),

@@ -127,6 +127,14 @@ def laid(obj):
     return found
 
 
+def change_layers(scene, obj, first, last):
+    """Whether keys, drivers or strips make the layers of a ground others between two frames."""
+    if not any(path.startswith(LAID) for path in _paths(obj)):
+        return False
+    moving = _moving(scene, obj, first, last)
+    return any(path.startswith(LAID) and len(set(map(axes.typed, values))) > 1 for path, values in moving.items())
+
+
 def _paths(obj):
     """Of all properties of ours that are keyed, driven or in strips."""
     return led(obj) | {ROOT + rest for rest in _curves(obj, ROOT)}
@@ -170,14 +178,8 @@ def uncounted(grounds, on_paths):
         ]
     sentences = []
     for each in grounds:
-        paths = _paths(each)
-        if each.desire_path.soil_file and any(path.startswith(OWN) for path in paths):
+        if each.desire_path.soil_file and any(path.startswith(OWN) for path in _paths(each)):
             sentences.append(f"The keys on the soil of '{each.name}' do not count while a soil file is set: clear it.")
-        if any(path.startswith(LAID) for path in paths):
-            sentences.append(
-                f"The keys on the layers of '{each.name}' do not count: they are as at frame "
-                f"{each.desire_path.frame_start}."
-            )
     return sorted(sentences)
 
 

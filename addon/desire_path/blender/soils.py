@@ -16,6 +16,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..errors import DesirePathError
 from ..ground.soil import BY_DEPTH, NUMBERS, SOILS, Soil
 from . import compat, units
+from .compat import prop
 from .late import axes
 from .messages import tell
 
@@ -63,6 +64,10 @@ WORDS = {
         "Water [m]",
         "How deep below the ground water stands, which shows in deeper prints, in metres; 0 = none",
     ),
+    "flow_shear": (
+        "Holds For [m]",
+        "How far a sole may slide before soil flows off ahead of it, in metres: before, it shears along; 0 = at once",
+    ),
 }
 FINE = {  # lengths that are often millimetres
     "layer_depth",
@@ -74,6 +79,7 @@ FINE = {  # lengths that are often millimetres
     "clod_size",
     "adhesion",
     "water_depth",
+    "flow_shear",
 }
 HARD, SOFT = 7.4, 5.0  # powers of ten of the stiffness that Softness 0 and 1 stand for [Pa]
 WEAK, STRONG = 1e4, 1e7  # bending that a crust breaks at, of Crust Bears 0 and 1 [Pa]
@@ -344,11 +350,11 @@ class OBJECT_OT_desire_path_soil_save(bpy.types.Operator, ExportHelper):
 def draw(layout, settings, save=True):
     """A soil as people describe it."""
     column = layout.column()
-    column.prop(settings, "soil_file")
+    prop(column, settings, "soil_file")
     if settings.soil_file:
         return
     for name in EASY:
-        column.prop(settings.soil_numbers, name)
+        prop(column, settings.soil_numbers, name)
     if settings.soil_numbers.changed:
         word = settings.soil.replace("-", " ").capitalize()
         translate = bpy.app.translations.pgettext_iface
@@ -364,7 +370,7 @@ def draw_numbers(layout, settings):
     column.active = not settings.soil_file
     for name in WORDS:
         if name not in EASY:  # those are said above
-            column.prop(settings.soil_numbers, name)
+            prop(column, settings.soil_numbers, name)
 
 
 CLASSES = (OBJECT_OT_desire_path_soil_save,)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import axes, compat, playback
-from .private import evaluated, private_scene
+from . import axes, compat, moves, playback
+from .private import evaluated, private_scene, visiting
 
 STANDS = {
     "PARTICLE_SYSTEM",
@@ -95,7 +95,8 @@ def find(scene, obj, frame):
 @contextmanager
 def shaped(scene, obj, before, trees=()):
     """(a private scene, a copy of a ground in it with the first `before` of its other modifiers as renders have
-    them, and geometry trees after those); all is gone afterwards, the trees too."""
+    them, and geometry trees after those); all is gone afterwards, the trees too. What follows properties of `scene` is
+    seen nowhere else: then it is that scene."""
     copy = obj.copy()
     try:
         copy.hide_viewport = False
@@ -109,8 +110,8 @@ def shaped(scene, obj, before, trees=()):
         show(scene, copy, obj)
         for tree in trees:
             compat.nodes_modifier(copy, "desire_path", tree)
-        with private_scene(scene, copy) as alone:
-            yield alone, copy
+        with visiting(scene, copy) if moves.asks_scene(copy) else private_scene(scene, copy) as where:
+            yield where, copy
     finally:
         bpy.data.objects.remove(copy)
         for tree in trees:

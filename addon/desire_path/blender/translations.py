@@ -1,9 +1,10 @@
 """translations.py - the words of the add-on in other languages, for Blender's own interface.
 
-Keys are Blender's: (context, the English label), where buttons have the context "Operator" and all else "*".
-Blender asks here for what its own catalogue does not have. A language is complete when it has every label, every
-description (translations_described.py, translations_soil.py, translations_track.py), and every question and reason
-why a button cannot be pressed (translations_said.py).
+Keys are Blender's: (context, the English label), where buttons have the context "Operator", panels and what objects
+remember have compat.WORDS, and all else "*". Blender asks here for what its own catalogue does not have: of our own
+context that is all, or a word would be said as it is somewhere else in Blender. A language is complete when it has
+every label, every description (translations_described.py, translations_soil.py, translations_track.py), and every
+question and reason why a button cannot be pressed (translations_said.py).
 """
 
 import bpy
@@ -17,6 +18,7 @@ from . import (
     translations_soil,
     translations_track,
 )
+from .compat import WORDS
 
 GERMAN = {
     "Operator": {
@@ -83,7 +85,7 @@ GERMAN = {
         "Amount": "Menge",
         "At rest": "Zur Ruhe gekommen",
         "Attributes": "Attribute",
-        "Auto Update": "Selbst erneuern",
+        "Auto Update": "Auto-Backen",
         "Back and Forth": "Hin und zurück",
         "Baked": "Gebacken",
         "Baking": "Backt",
@@ -154,6 +156,7 @@ GERMAN = {
         "Clods": "Brocken",
         "Water": "Wasser",
         "Water [m]": "Wasser [m]",
+        "Holds For [m]": "Hält für [m]",
         "Clods [m]": "Brocken [m]",
         "Lumps": "Klumpen",
         "Lumps [m]": "Klumpen [m]",
@@ -172,6 +175,7 @@ GERMAN = {
         "Crust Bears": "Kruste trägt",
         "Crust [m]": "Kruste [m]",
         "Crust snow": "Harschschnee",
+        "Crusted Snow": "Harschschnee",
         "Mass [kg]": "Masse [kg]",
         "Max Wall": "Steilste Wand",
         "Mud": "Schlamm",
@@ -183,6 +187,7 @@ GERMAN = {
         "Outdated": "Veraltet",
         "Output and Method": "Ausgabe und Verfahren",
         "Own Soils": "Eigene Bodenarten",
+        "Packed Earth": "Festgetretene Erde",
         "Packed earth": "Festgetretene Erde",
         "Packed snow": "Festgetretener Schnee",
         "Group": "Gruppe",
@@ -209,7 +214,7 @@ GERMAN = {
         "Rim": "Rand",
         "Rim Share": "Randanteil",
         "Rims": "Ränder",
-        "Subframes": "Zwischenbilder",
+        "Subframes": "Teilbilder",
         "Scatter": "Streuung",
         "Scatter [m]": "Streuung [m]",
         "Seed": "Startwert",
@@ -258,7 +263,11 @@ def catalogue(language, messages):
         soils.described(each, soils.DESCRIBED): soils.described(each, messages[soils.DESCRIBED])
         for each in SOILS.values()
     }
-    words = {**language, "*": {**language["*"], **messages, **presets}}
+    words = {
+        **language,
+        "*": {**language["*"], **messages, **presets},
+        WORDS: {**language["Operator"], **language["*"]},
+    }
     return {(context, label): text for context, labels in words.items() for label, text in labels.items()}
 
 

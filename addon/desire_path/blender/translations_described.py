@@ -169,7 +169,11 @@ GERMAN = {
     "White and a little translucent, bluer where it was pressed": (
         "Weiß und etwas durchscheinend, bläulicher, wo er gepresst wurde"
     ),
-    "Damp lumps that shine where they were pressed": "Feuchte Klumpen, die glänzen, wo sie gepresst wurden",
+    "Damp lumps, smooth and wet where feet went": "Feuchte Klumpen, glatt und nass, wo Füße gingen",
+    "Snow under a plate of ice, which cracks around prints": "Schnee unter einer Eisplatte, die um Abdrücke reißt",
+    "Dusty and hard, with small stones, flaked and cracked around prints": (
+        "Staubig und hart, mit Steinchen, um Abdrücke blättrig und rissig"
+    ),
     "Dark crumbs, darker and flat where feet went": "Dunkle Krumen, dunkler und flach, wo Füße gingen",
     "Moss and dead leaves between plants, bare earth where the cover is gone": (
         "Moos und welke Blätter zwischen Pflanzen, nackte Erde, wo der Bewuchs fehlt"

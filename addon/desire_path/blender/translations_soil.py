@@ -85,6 +85,9 @@ GERMAN = {
     "How deep below the ground water stands, which shows in deeper prints, in metres; 0 = none": (
         "Wie tief unter dem Boden Wasser steht, das sich in tieferen Abdrücken zeigt, in Metern; 0 = keines"
     ),
+    "How far a sole may slide before soil flows off ahead of it, in metres: before, it shears along; 0 = at once": (
+        "Wie weit eine Sohle rutschen darf, bis Erde vor ihr ausweicht, in Metern: bis dahin schert sie mit; 0 = sofort"
+    ),
     "How deep below the ground water stands: it fills deeper prints up to there; 0 = none": (
         "Wie tief unter dem Boden Wasser steht: es füllt tiefere Abdrücke bis dorthin; 0 = keines"
     ),

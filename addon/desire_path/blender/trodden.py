@@ -177,7 +177,7 @@ def _frames(chosen, crew):
 def _track(scene, walker, home, all_walkers):
     first, last = moves.frames(scene, home, walkers(scene, home))
     try:
-        samples, besides = sample.samples_of(scene, all_walkers), moves.besides(scene, all_walkers)
+        samples, besides = sample.samples_of(scene, all_walkers), moves.besides(scene, all_walkers, first, last)
         gait = recordings.record(scene, walker, first, last, samples, besides)
         if walker.desire_path.path is None:
             return _Track(walker, first, last, gait, parcels.around(gait), parcels.length(gait))

@@ -241,7 +241,7 @@ def _pieces(obj):
 
 
 def _shown(collection, outer):
-    """(mesh, the way from its world to the space of what shows the collection) of all that renders show of it."""
+    """(mesh, the transform from its world to the space of what shows the collection) of all that renders show of it."""
     if collection.hide_render:
         return
     inside = outer.copy()
