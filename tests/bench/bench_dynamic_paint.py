@@ -20,13 +20,16 @@ import time
 from pathlib import Path
 
 REPO = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(REPO / "addon"), str(REPO), str(REPO / "tests" / "bench")]
+sys.path[:0] = [str(REPO / "addon"), str(REPO / "tests"), str(REPO / "tests" / "bench")]
 
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
 import stages  # noqa: E402
+import starts  # noqa: E402
+from scenes import meshes, people  # noqa: E402
 
 import desire_path  # noqa: E402
+from desire_path.blender import compat  # noqa: E402
 from desire_path.motion.gait import Gait  # noqa: E402
 
 SIDE = 4.6  # of the ground [m]
@@ -38,41 +41,20 @@ SCALE = 0.056444  # m per unit of the clip
 def grid(name, count, centre, larger=1.0):
     """A flat square of count x count vertices with UVs, `larger` times the usual side."""
     side = SIDE * larger
-    axis = np.linspace(-side / 2, side / 2, count, dtype=np.float32)
-    x, y = np.meshgrid(axis + centre[0], axis + centre[1])
-    corner = np.stack([x.ravel(), y.ravel(), np.zeros(count * count, np.float32)], axis=1)
-    a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)[None]).ravel()
-    faces = np.stack([a, a + 1, a + count + 1, a + count], axis=1).astype(np.int32)
-    mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(corner))
-    mesh.loops.add(faces.size)
-    mesh.polygons.add(len(faces))
-    mesh.vertices.foreach_set("co", corner.ravel())
-    mesh.loops.foreach_set("vertex_index", faces.ravel())
-    mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 4, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    layer = mesh.uv_layers.new(name="UVMap")
-    uv = ((corner[faces.ravel(), :2] - centre) / side + 0.5).astype(np.float32)
-    layer.data.foreach_set("uv", uv.ravel())
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(obj)
+    first = np.subtract(centre, side / 2)
+    obj = meshes.grid(count, count, side / (count - 1), *first, name=name)
+    corners = np.zeros(len(obj.data.loops), np.int32)
+    obj.data.loops.foreach_get("vertex_index", corners)
+    place = compat.positions(obj.data)[corners, :2]
+    obj.data.uv_layers.new(name="UVMap").data.foreach_set("uv", ((place - first) / side).astype(np.float32).ravel())
     return obj
-
-
-def only(obj):
-    bpy.context.view_layer.update()
-    for other in list(bpy.context.view_layer.objects):
-        other.select_set(False)
-    obj.select_set(True)
-    bpy.context.view_layer.objects.active = obj
 
 
 def walker(frame_rate):
     """The armature on the scene's frames, and its last frame."""
     scene = bpy.context.scene
     scene.render.fps, scene.render.fps_base = frame_rate, 1.0
-    bpy.ops.import_anim.bvh(filepath=str(WALK), global_scale=SCALE, use_fps_scale=True)
-    armature = bpy.context.object
+    armature = people.bvh(WALK, global_scale=SCALE, use_fps_scale=True, update_scene_fps=False)
     last = int(armature.animation_data.action.frame_range[1])
     scene.frame_start, scene.frame_end = 1, last
     return armature, last
@@ -87,14 +69,14 @@ def ours(count, frame_rate, folder, centre, larger=1.0):
     """Seconds of one whole bake, by stage; `whole` is all of it."""
     armature, last = start(frame_rate)
     ground = grid("Ground", count, centre, larger)
-    only(ground)
+    meshes.activate(ground)
     bpy.ops.object.desire_path_ground_add()
     settings = ground.desire_path
     settings.soil, settings.cell_size, settings.folder = SOIL, SIDE * larger / (count - 1), str(folder)
     settings.frame_start, settings.frame_end = 1, last
-    only(armature)
+    meshes.activate(armature)
     bpy.ops.object.desire_path_walker_add()
-    only(ground)
+    meshes.activate(ground)
     with stages.clock() as spent:
         bpy.ops.object.desire_path_bake()
     return spent
@@ -125,7 +107,7 @@ def brushes(gait, last):
             obj.keyframe_insert("location", frame=frame)
             obj.keyframe_insert("rotation_quaternion", frame=frame)
         obj.modifiers.new("Brush", "DYNAMIC_PAINT").ui_type = "BRUSH"
-        only(obj)
+        meshes.activate(obj)
         bpy.ops.dpaint.type_toggle(type="BRUSH")
         obj.modifiers["Brush"].brush_settings.paint_source = "VOLUME"
         made.append(obj)
@@ -139,7 +121,7 @@ def dynamic_paint(form, count, frame_rate, folder, centre, gait):
     bpy.context.view_layer.update()
     brushes(gait, last)
     ground = grid("Canvas", count, centre)
-    only(ground)
+    meshes.activate(ground)
     modifier = ground.modifiers.new("Canvas", "DYNAMIC_PAINT")
     modifier.ui_type = "CANVAS"
     bpy.ops.dpaint.type_toggle(type="CANVAS")
@@ -167,19 +149,10 @@ def dynamic_paint(form, count, frame_rate, folder, centre, gait):
 
 def image_bake(count, frame_rate, folder, centre):
     """Seconds of an image bake, in a process of its own: its end is only told when Blender leaves."""
-    words = [
-        sys.executable,
-        __file__,
-        "--image",
-        str(count),
-        "--frame-rate",
-        str(frame_rate),
-        "--folder",
-        str(folder),
-        "--centre",
-        *map(str, centre),
-    ]
-    said = subprocess.run(words, capture_output=True, text=True).stdout
+    words = ["--image", str(count), "--frame-rate", str(frame_rate), "--folder", str(folder)]
+    words += ["--centre", *map(str, centre)]
+    itself = starts.command(__file__, *words, blender=bpy.app.binary_path)
+    said = subprocess.run(itself, capture_output=True, text=True).stdout
     found = re.search(r"Bake complete! \(([0-9.]+)\)", said)
     if not found:
         raise SystemExit("Dynamic Paint did not finish its image bake.")
@@ -206,9 +179,9 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         armature, last = start(args.frame_rate)
-        only(grid("Ground", 8, (0, 0)))
+        meshes.activate(grid("Ground", 8, (0, 0)))
         bpy.ops.object.desire_path_ground_add()
-        only(armature)
+        meshes.activate(armature)
         bpy.ops.object.desire_path_walker_add()
         bpy.ops.object.desire_path_record(filepath=str(folder / "walk.npz"))
         gait = Gait.load(folder / "walk.npz")

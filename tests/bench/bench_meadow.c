@@ -142,9 +142,7 @@ static void lane(int passes)
 
 int main(int argc, char** argv)
 {
-    const int    passes = argc > 1 && atoi(argv[1]) > 0 ? atoi(argv[1])
-                          : getenv("BENCH_KEEP")        ? 60
-                                                        : 500;
+    const int    passes = bench_count(argc, argv, getenv("BENCH_KEEP") ? 60 : 500);
     const double bare = walk(0, "a walker on bare ground");
     const double grown = walk(100000, "the same among 100,000 plants");
     printf("%-34s %7.0f us a frame\n", "so plants cost", grown - bare);

@@ -234,7 +234,7 @@ static void meadow(int frames)
 
 int main(int argc, char** argv)
 {
-    const int frames = argc > 1 && atoi(argv[1]) > 0 ? atoi(argv[1]) : 300;
+    const int frames = bench_count(argc, argv, 300);
     lawn(frames, 0, "200 plants x 28 particles, awake");
     lawn(frames, 1, "the same, with a boot");
     plain(frames);

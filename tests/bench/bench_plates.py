@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How near the loads of measured walks come to what force plates said: a table anyone can run.
 
-    PYTHONPATH=addon python tests/bench/bench_plates.py
+    PYTHONPATH=addon python tests/bench/bench_plates.py [trial ..]      (all)
 
 First walkers whose forces are known because they were there first, walks to landings; these need no data.
 Then each measured trial as it is, then seen otherwise (fewer frames, noise, another floor, fewer bones), then every
@@ -46,21 +46,29 @@ def row(name, found):
     )
 
 
-def known():
+def known(names):
     print(f"{'known forces':20s} {'RMSE of left and right foot [body weights] at frames a second':s}")
     rates = (240.0, 120.0, 60.0, 48.0, 30.0, 25.0, 24.0)
     print(f"{'':20s} " + "".join(f"{rate:<14.0f}" for rate in rates) + "120, trunk wobbles")
-    for name in trials.TRIALS:
+    for name in names:
         rows = [trials.errors(name, rate).rmse for rate in rates] + [trials.errors(name, 120.0, shake=0.0025).rmse]
         print(f"{name:20s} " + "".join(f"{r[0]:.3f} {r[1]:.3f}   " for r in rows))
     print()
 
 
 def main():
-    known()
+    chosen = sys.argv[1:] or [*trials.TRIALS, *plates.TRIALS]
+    unknown = sorted({*chosen} - {*trials.TRIALS, *plates.TRIALS})
+    if unknown:
+        raise SystemExit(f"There is no trial {unknown[0]}: name some of {', '.join([*trials.TRIALS, *plates.TRIALS])}.")
+    known([name for name in trials.TRIALS if name in chosen])
+    measured([name for name in plates.TRIALS if name in chosen])
+
+
+def measured(names):
     print(f"{'left and right foot each':28s} {'RMSE':11s}  {'r':11s}  {'forward':11s}  mean   contacts  pressure")
     print(f"{'':28s} {'body weights':11s} {'':11s}   {'body weights':11s} {'':5s}  mean, most ms  cm")
-    for name in plates.TRIALS:
+    for name in names:
         print(name)
         for model in ("inertia", "impulse"):
             gait = plates.trial(name)
@@ -69,7 +77,7 @@ def main():
             gait = change(plates.trial(name, **bones))
             row(words, plates.errors(name, walker.loads(gait), gait))
     print("each constant 30 % less and more: what the RMSE of the foot that suffers most gains [body weights]")
-    gaits = {name: plates.trial(name) for name in plates.TRIALS}
+    gaits = {name: plates.trial(name) for name in names}
     rmse = lambda name, **more: plates.errors(name, walker.loads(gaits[name], **more), gaits[name]).rmse
     base = {name: rmse(name) for name in gaits}
     for table, kind in ((walker.LIMITS, "limits"), (walker.OPTIONS, "options")):

@@ -1,6 +1,6 @@
 """bench_sampling.py - what it takes to record 1,000 frames of a rig in a scene with a heavy character.
 
-    python tests/bench/bench_sampling.py [frames]      (bpy module, or blender -b --python)
+    python tests/bench/bench_sampling.py [frames, 1000] [runs, 5]      (bpy module, or blender -b --python)
 The character is skinned to the rig, subdivided and smoothed. Compared with the plain way, frame_set in the
 scene itself and reading the bones, which is timed over a few frames.
 """
@@ -21,7 +21,6 @@ from desire_path.blender import sample  # noqa: E402
 WALK = ROOT / "tests" / "scenes" / "walks" / "cmu_12_01_walk.bvh"
 SCALE = 0.056444  # m per unit of the clip
 PLAIN = 12  # frames the plain way
-RUNS = 5
 
 
 def timed(function):
@@ -41,18 +40,19 @@ def plain(armature):
 
 
 def main():
-    frames = next((int(word) for word in sys.argv[1:] if word.isdigit()), 1000)
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
+    frames, runs = [*map(int, words), *(1000, 5)[len(words) :]]
     bpy.ops.wm.read_factory_settings(use_empty=True)
     desire_path.register()
     armature = people.bvh(WALK, global_scale=SCALE)
     body = mannequin.add(armature)
-    alone = min(timed(lambda: sample.record(bpy.context.scene, armature, 1, frames)) for _ in range(RUNS))
+    alone = min(timed(lambda: sample.record(bpy.context.scene, armature, 1, frames)) for _ in range(runs))
     body.modifiers.new("Subdivision", "SUBSURF").levels = 2
     body.modifiers.new("Smooth", "SMOOTH")  # else only a window would have the subdivision worked out
     bpy.context.view_layer.update()
     shown = len(body.evaluated_get(bpy.context.view_layer.depsgraph).data.vertices)
-    ours = min(timed(lambda: sample.record(bpy.context.scene, armature, 1, frames)) for _ in range(RUNS))
-    slow = min(timed(lambda: plain(armature)) for _ in range(RUNS)) * frames / PLAIN
+    ours = min(timed(lambda: sample.record(bpy.context.scene, armature, 1, frames)) for _ in range(runs))
+    slow = min(timed(lambda: plain(armature)) for _ in range(runs)) * frames / PLAIN
     print(
         f"Blender {bpy.app.version_string}, {len(armature.data.bones)} bones, a character of "
         f"{len(body.data.vertices)} points, {shown} as it is shown; {frames} frames"

@@ -1,11 +1,7 @@
 // tests/bench/bench_soil.c - what one footstep costs: imprint, rings, compress, accumulate,
 // stabilize.
 //
-//   cmake -S native -B build -DDP_MODULE=OFF && cmake --build build --target dp_soil dp_imprint
-//   flags="-O3 -std=c11 -ffp-contract=off -fno-math-errno -D_POSIX_C_SOURCE=200809L"
-//   rooms="build/libdp_soil.a build/libdp_imprint.a build/libdp_base.a"
-//   cc $flags -Inative tests/bench/bench_soil.c $rooms -lm -lpthread -o build/bench_soil
-//   build/bench_soil [prints]
+//   scripts/bench soil   or   build/bench_soil [prints]
 //
 // A 75 kg walker stands 36 frames at 60 Hz on a sole of 28 x 10 cm that rolls from heel to toe;
 // then the foot lifts off and everything comes to rest within 0.1 degrees. Times are per frame of
@@ -15,66 +11,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/alloc.h"
-#include "base/vec.h"
+#include "../native/soil/ground.h"
 #include "imprint/imprint.h"
-#include "soil/soil.h"
 #include "timing.h"
 
 #define FRAMES 36
 #define STANDING 16  // sweeps of a frame while the foot stands, as sim/sim_press.c; then to rest
 #define TENTH (0.1 * DP_PI / 180.0)
 
-typedef struct World
+static Ground make(double cell, double degrees)
 {
-    DpSoilPatch patch;
-    DpImprint   imprint;
-    DpSoil      soil;
-    float *     rest, *compression, *heap, *pressure_time, *modulus, *rest_slope;
-    uint8_t*    kind;
-} World;
-
-static World make(double cell, double degrees)
-{
-    World        w = {0};
-    const int    nx = (int)(1.2 / cell), ny = (int)(0.96 / cell);
-    const size_t n = (size_t)nx * (size_t)ny;
-    w.soil = dp_soil_default();
-    w.soil.young_modulus = 0.6e6f;
-    w.soil.rest_angle = (float)(degrees * DP_PI / 180.0);
-    w.rest = dp_alloc(n, 4), w.compression = dp_alloc(n, 4), w.heap = dp_alloc(n, 4);
-    w.pressure_time = dp_alloc(n, 4), w.modulus = dp_alloc(n, 4), w.rest_slope = dp_alloc(n, 4);
-    w.kind = dp_alloc(n, 1);
-    w.imprint.bottom = dp_alloc(n, 4), w.imprint.cover = dp_alloc(n, 4);
-    w.imprint.ring = dp_alloc(n, 4);
-    for (size_t k = 0; k < n; ++k) {
-        w.modulus[k] = w.soil.young_modulus;
-        w.rest_slope[k] = (float)tan((double)w.soil.rest_angle);
-    }
-    w.patch = (DpSoilPatch){nx,
-                            ny,
-                            nx,
-                            cell,
-                            -0.5 * (nx - 1) * cell,
-                            -0.5 * (ny - 1) * cell,
-                            w.rest,
-                            w.compression,
-                            w.heap,
-                            w.pressure_time,
-                            w.modulus,
-                            w.rest_slope,
-                            w.kind,
-                            NULL,
-                            1,
-                            NULL};
-    return w;
-}
-
-static void unmake(World* w)
-{
-    dp_free(w->rest), dp_free(w->compression), dp_free(w->heap), dp_free(w->pressure_time);
-    dp_free(w->modulus), dp_free(w->rest_slope), dp_free(w->kind), dp_free(w->imprint.bottom);
-    dp_free(w->imprint.cover), dp_free(w->imprint.ring);
+    DpSoil soil = dp_soil_default();
+    soil.young_modulus = 0.6e6f;
+    soil.rest_angle = (float)(degrees * DP_PI / 180.0);
+    return ground_make((int)(1.2 / cell), (int)(0.96 / cell), cell, soil);
 }
 
 typedef struct Cost
@@ -108,8 +58,8 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     static const int32_t side[] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                    2, 3, 7, 2, 7, 6, 1, 2, 6, 1, 6, 5, 3, 0, 4, 3, 4, 7};
     const DpMesh         sole = {8, 12, corner, side};
-    World                w = make(cell, degrees);
-    w.patch.soils = &w.soil;
+    Ground               w = make(cell, degrees);
+    w.patch.soils = w.soil;
     DpImprintScratch*   rasters = dp_imprint_scratch_create();
     DpSoilScratch*      scratch = dp_soil_scratch_create();
     const DpHeapOptions options = {law, 0.04, 0.5 * 75.0 * DP_GRAVITY, {0.0, 0.0, 0.0}};
@@ -164,20 +114,20 @@ static Cost footstep(double cell, double degrees, DpHeapLaw law)
     }
     dp_soil_scratch_destroy(scratch);
     dp_imprint_scratch_destroy(rasters);
-    unmake(&w);
+    ground_free(&w);
     return cost;
 }
 
 // ---- the same sweep as a plain loop with branches --------------------------------------------
 
-static void plain_sweep(const World* w, float* share, float* next)
+static void plain_sweep(const Ground* w, float* share, float* next)
 {
     const int nx = w->patch.nx, ny = w->patch.ny;
     for (int pass = 0; pass < 2; ++pass)
         for (int j = 1; j < ny - 1; ++j)
             for (int i = 1; i < nx - 1; ++i) {
                 const int   p = j * nx + i;
-                const float at = w->rest[p] - w->compression[p] + w->heap[p];
+                const float at = w->base_height[p] - w->compression[p] + w->heap[p];
                 float       sum = 0.0f, in = 0.0f;
                 int         lower = 0;
                 for (int b = -1; b <= 1; ++b)
@@ -185,7 +135,7 @@ static void plain_sweep(const World* w, float* share, float* next)
                         if (!a && !b) continue;
                         const int   q = p + b * nx + a;
                         const float far = (float)w->patch.cell * (a && b ? 1.41421356f : 1.0f);
-                        const float to = w->rest[q] - w->compression[q] + w->heap[q];
+                        const float to = w->base_height[q] - w->compression[q] + w->heap[q];
                         const float out = at - to - w->rest_slope[p] * far;
                         if (out > 0.0f) sum += out, ++lower;
                         const float come = to - at - w->rest_slope[q] * far;
@@ -211,8 +161,8 @@ static void compare(double degrees)
     int    made = 0;
     for (int run = 0; run < 5; ++run)
         for (int m = 0; m < 2; ++m) {
-            World w = make(0.01, degrees);
-            w.patch.soils = &w.soil;
+            Ground w = make(0.01, degrees);
+            w.patch.soils = w.soil;
             w.patch.nx = w.patch.row = 61, w.patch.ny = 43;
             unsigned seed = 1;
             for (int k = 0; k < 61 * 43; ++k) {
@@ -234,7 +184,7 @@ static void compare(double degrees)
             if (spent < best[m]) best[m] = spent;
             dp_soil_scratch_destroy(scratch);
             dp_free(share), dp_free(next);
-            unmake(&w);
+            ground_free(&w);
         }
     printf(
         "one sweep of 61 x 43 cells, all loose, %2.0f deg: %5.1f us (of %d), plain loop %5.1f us: "
@@ -262,7 +212,7 @@ static void keep(int law, double cell, double degrees, const Cost* cost)
 
 int main(int argc, char** argv)
 {
-    const int    prints = argc > 1 ? atoi(argv[1]) : 12;
+    const int    prints = bench_count(argc, argv, 12);
     const double angles[] = {32.0, 15.0, 8.0};
     printf("us a frame (36 frames and the lift-off, best of %d prints)\n", prints);
     printf(

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "imprint/imprint.h"
+#include "soil/soil.h"
 #include "terrain/terrain.h"
 #include "timing.h"
 
@@ -87,13 +88,7 @@ static void bench_imprint(void)
 
 static DpTerrain* terrain_on(const DpGround* ground, double* seconds)
 {
-    const DpSoil           soil = {.layer_depth = 0.3f,
-                                   .young_modulus = 1e6f,
-                                   .poisson_ratio = 0.1f,
-                                   .settle_time = 0.2f,
-                                   .rest_angle = 0.5f,
-                                   .wall_angle = 1.5707964f,
-                                   .grain_size = 0.012f};
+    const DpSoil           soil = dp_soil_default();
     const DpTerrainOptions options = {{0.01, 0.0, 0.0}, &soil, 1, 1, 0, NULL};
     DpTerrain*             terrain = NULL;
     const double           from = bench_now();

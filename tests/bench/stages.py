@@ -11,7 +11,8 @@ import contextlib
 import time
 
 STAGES = {  # name -> module and function below desire_path
-    "sample": ("blender.sample", "gaits"),
+    "sample": ("blender.sample", "record"),
+    "takes": ("blender.moves", "besides"),
     "ground": ("blender.ground", "read"),
     "create": ("ground.sim", "Simulation.__init__"),
     "loads": ("loads.walker", "Walker.loads"),
@@ -21,7 +22,7 @@ STAGES = {  # name -> module and function below desire_path
     "frames": ("ground.sim", "Film.write_frame"),
     "flush": ("ground.sim", "Simulation.flush"),
     "maps": ("ground.sim", "Film.write_maps"),
-    "start maps": ("bake.share", "Share._start_maps"),
+    "start maps": ("bake.share", "Share.write_start"),
     "write": ("ground.maps", "write"),
     "read": ("ground.maps", "read"),
     "publish": ("bake.output", "Output.publish"),

@@ -17,6 +17,13 @@ static inline double bench_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+// How often, or for how long, a program does what it times: the number it was started with, or `usual`.
+static inline int bench_count(int words, char** word, int usual)
+{
+    const int count = words > 1 ? atoi(word[1]) : 0;
+    return count > 0 ? count : usual;
+}
+
 // Add one timing to the file that BENCH_KEEP names: `bench,what,seconds`. Without it: nothing.
 // @param what  the same from run to run; its commas are left out
 static inline void bench_keep(const char* bench, const char* what, double seconds)
