@@ -101,6 +101,7 @@ def test_the_zip_holds_what_users_need_and_nothing_else(tmp_path):
         "THIRD-PARTY.md",
         "py.typed",
         "_native.pyi",
+        "_native_types.pyi",
         "blender/__init__.py",
         "README.md",
         *(f"blender/pictures/{kind}.png" for kind in desire_path.KINDS),

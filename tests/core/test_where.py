@@ -118,6 +118,15 @@ def test_every_equation_is_on_the_line_that_computes_it(number):
     assert re.search(r"\n  model: .*\n    native/model\.md:\d+ ", told), told
 
 
+@pytest.mark.parametrize(
+    "paper, number",
+    [*(("TRAIL", n) for n in range(1, 18)), *(("SOFT22", n) for n in range(1, 15) if n != 2)],  # (2) is a sign
+)
+def test_every_equation_of_the_papers_has_a_slow_twin(paper, number):
+    told = run("where", paper, number).stdout
+    assert re.search(r"\n  twin: .*\n    tests/reference/\w+\.py:\d+ ", told), told
+
+
 def test_rooms_hold(tmp_path):
     told = run("rooms")
     assert told.returncode == 0, told.stderr

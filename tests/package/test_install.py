@@ -128,7 +128,7 @@ def test_the_wheel_serves_every_python_from_3_11(wheel):
         'Requires-Dist: scipy>=1.9; extra == "fit"',
         'Requires-Dist: usd-core>=23.11; extra == "usd"',
     ]
-    data = ("walks/walk.npz", "walks/README.md", "py.typed", "_native.pyi")
+    data = ("walks/walk.npz", "walks/README.md", "py.typed", "_native.pyi", "_native_types.pyi")
     assert {f"desire_path/{each}" for each in data} <= set(names)
 
 
