@@ -9,6 +9,17 @@
 
 static float compression[NX * NY], heap[NX * NY], pressure_time[NX * NY], got[NX * NY];
 
+static DpTrail trail_at(long i0, long j0, int nx, int ny)
+{
+    return (DpTrail){.i0 = i0,
+                     .j0 = j0,
+                     .nx = nx,
+                     .ny = ny,
+                     .compression = compression,
+                     .heap = heap,
+                     .pressure_time = pressure_time};
+}
+
 static void make_trail(void)
 {
     for (int n = 0; n < NX * NY; ++n) {
@@ -29,7 +40,7 @@ TEST(a_trail_reads_as_it_was_left)
 {
     const DpGround ground = ground_flat(0.3);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
-    const DpTrail  trail = {-70, 13, NX, NY, compression, heap, pressure_time};
+    const DpTrail  trail = trail_at(-70, 13, NX, NY);
     const float*   laid[] = {compression, heap, pressure_time};
     make_trail();
     CHECK(dp_terrain_lay(terrain, &trail) == DP_OK);
@@ -53,7 +64,7 @@ TEST(no_ground_stays_no_ground)
     const DpGround ground = ground_heights(40, 40, 0.005, 0.005, 0.01, hole);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
     for (int n = 0; n < 40 * 40; ++n) compression[n] = 0.02f, heap[n] = pressure_time[n] = 0.0f;
-    const DpTrail trail = {0, 0, 40, 40, compression, heap, pressure_time};
+    const DpTrail trail = trail_at(0, 0, 40, 40);
     CHECK(dp_terrain_lay(terrain, &trail) == DP_OK);
     CHECK(dp_terrain_read(terrain, DP_FIELD_COMPRESSION, 0, 0, 40, 40, got) == DP_OK);
     for (int n = 0; n < 40 * 40; ++n) CHECK(got[n] == (n % 40 < 20 ? 0.02f : 0.0f));
@@ -69,7 +80,7 @@ TEST(any_field_alone_is_a_trail)
         const int      which = k / 5, at = places[k % 5];
         const DpGround ground = ground_flat(0.0);
         DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
-        const DpTrail  trail = {0, 0, 40, 40, compression, heap, pressure_time};
+        const DpTrail  trail = trail_at(0, 0, 40, 40);
         for (int f = 0; f < 3; ++f)
             for (int n = 0; n < 40 * 40; ++n) field[f][n] = f == which && n == at ? 0.5f : 0.0f;
         CHECK(dp_terrain_lay(terrain, &trail) == DP_OK);
@@ -87,7 +98,7 @@ TEST(nonsense_is_not_laid)
 {
     const DpGround ground = ground_flat(0.0);
     DpTerrain*     terrain = ground_terrain(&ground, 0.01, 0.0, 0.0);
-    const DpTrail  trail = {0, 0, NX, NY, compression, heap, pressure_time};
+    const DpTrail  trail = trail_at(0, 0, NX, NY);
     const float    bad[] = {-1e-3f, NAN, INFINITY};
     make_trail();
     for (int k = 0; k < 3; ++k) {
@@ -96,8 +107,8 @@ TEST(nonsense_is_not_laid)
         CHECK(dp_terrain_lay(terrain, &trail) == DP_BAD_ARGUMENT);
         heap[77] = was;
     }
-    const DpTrail far = {LONG_MAX - 255, 0, NX, NY, compression, heap, pressure_time};
-    const DpTrail none = {0, 0, 0, NY, compression, heap, pressure_time};
+    const DpTrail far = trail_at(LONG_MAX - 255, 0, NX, NY);
+    const DpTrail none = trail_at(0, 0, 0, NY);
     CHECK(dp_terrain_lay(terrain, &far) == DP_BAD_ARGUMENT);
     CHECK(dp_terrain_lay(terrain, &none) == DP_BAD_ARGUMENT);
     CHECK(dp_terrain_tile_count(terrain) == 0);
