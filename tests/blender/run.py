@@ -59,7 +59,8 @@ def main():
 
     sys.modules.setdefault("run", sys.modules["__main__"])
     desire_path.register()
-    passed = failed = skipped = 0
+    passed = skipped = 0
+    failures = []
     for path in wanted():
         spec = importlib.util.spec_from_file_location(path.stem, path)
         module = importlib.util.module_from_spec(spec)
@@ -78,10 +79,13 @@ def main():
                 skipped += 1
                 print(f"  skip  {label}: {wrong[5:]}")
             else:
-                failed += 1
-                print(f"  FAIL  {label}\n{wrong}")
+                failures.append(f"  FAIL  {label}\n{wrong}")
+                print(failures[-1])
             sys.stdout.flush()
     desire_path.unregister()
+    if failures:  # once more, for those who see the end of a long log
+        print("\nWhat went wrong:", *failures, sep="\n")
+    failed = len(failures)
     version = ".".join(map(str, bpy.app.version))
     print(f"Blender {version}: {passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))
     print(f"{passed} passed, {failed} failed, {skipped} skipped")

@@ -308,10 +308,12 @@ def test_on_a_hill_its_feet_are_placed_and_carried_switches_back():
     assert bpy.ops.object.desire_path_walk_it() == {"FINISHED"}
     found = summary(rig.desire_path.ground)
     assert found["contacts"] >= 15 and not found["warnings"], found
-    assert rig.animation_data.action.name.endswith("_carried_placed") and rig.desire_path.carried
+    assert rig.desire_path.carried
+    assert rig.animation_data.action.name.endswith("_carried_placed"), rig.animation_data.action
     rig.desire_path.carried = False
-    assert rig.animation_data.action == first
-    assert not [each.name for each in bpy.data.actions if "_carried" in each.name]
+    assert rig.animation_data.action == first, rig.animation_data.action
+    left = [each.name for each in bpy.data.actions if "_carried" in each.name]
+    assert not left, left
 
 
 def test_where_feet_cannot_be_placed_only_prints_are():

@@ -52,12 +52,14 @@ def trodden():
     return np.array(cover), trampling.cover(sim)
 
 
+@pytest.mark.measured
 def test_carex_keeps_the_cover_of_coles_lanes(cole, trodden):
     counts, wanted = cole[0.0]
     assert tuple(counts) == trampling.PASSES
     assert abs(trodden[0] - wanted).max() < 4.0, trodden[0]
 
 
+@pytest.mark.measured
 def test_finer_cells_keep_the_same_cover(cole, trodden):
     fine = np.array(
         [
@@ -71,6 +73,7 @@ def test_finer_cells_keep_the_same_cover(cole, trodden):
     assert abs(fine - trodden[0][:3]).max() < 4.0, (fine, trodden[0])
 
 
+@pytest.mark.measured
 def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
     counts, wanted = cole[365.0]
     (rested,) = side_by_side(("carex", {}, dict(passes=(25, 75, 200), rest_days=365.0)))
@@ -78,12 +81,14 @@ def test_a_year_later_it_has_grown_as_theirs_had(cole, trodden):
     assert abs(reached - wanted).max() < 8.0, reached
 
 
+@pytest.mark.measured
 def test_cover_falls_monotonically_and_convexly(trodden):
     counts, cover = np.r_[0, trampling.PASSES], np.r_[100.0, trodden[0]]
     slope = np.diff(cover) / np.diff(counts)
     assert (slope < 0).all() and (np.diff(slope) > 0).all()
 
 
+@pytest.mark.measured
 def test_what_must_not_matter_does_not():
     """The walkers' mass, the seed and the frame rate; the kind does."""
     seeds = [("carex", dict(seed=seed), dict(passes=FEW)) for seed in (SEED, 11, 12, 13, 14)]
